@@ -210,10 +210,8 @@ fn a_run_of_a_building_writes_a_recording() {
     let folder = scratch("building-recorded");
     let outcome = interplay(&folder, &["run", "building/four-room-ilc", "--set", "iterations=3"]);
     let said = &outcome.stderr;
-    assert!(
-        said.starts_with("recorded to recordings/building/four-room-ilc.rrd (`--no-record` writes none); to open it: "),
-        "{said}"
-    );
+    let begin = "recorded to recordings/building/four-room-ilc.rrd (`--no-record` writes none); to open it: ";
+    assert!(said.starts_with(begin), "{said}");
     assert!(said.ends_with(" view recordings/building/four-room-ilc.rrd\n"), "{said}");
     let bytes = fs::read(folder.join("recordings/building/four-room-ilc.rrd")).expect("there is a recording");
     for piece in ["/building/plan/rooms", "/building/zone/4/temperature", "/building/iteration/cost", "iteration"] {
@@ -343,9 +341,8 @@ fn identify_prints_a_table_and_draws_plots() {
     let folder = classroom("identify-plots");
     let outcome = interplay(&folder, &["identify", "room.csv"]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
-    for piece in ["what is known", "heat capacity", "kJ/K", "24 h ahead", "--details"] {
-        assert!(outcome.stdout.contains(piece), "{piece}: {}", outcome.stdout);
-    }
+    let pieces = ["what is known", "heat capacity", "kJ/K", "24 h ahead", "--details"];
+    assert!(pieces.iter().all(|piece| outcome.stdout.contains(piece)), "{}", outcome.stdout);
     assert!(outcome.stdout.lines().count() <= 40, "{}", outcome.stdout);
     let outcome = interplay(&folder, &["identify", "room.csv", "--details", "--out", "plots/new"]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
@@ -393,8 +390,8 @@ fn spoilt_telemetry_is_refused_at_the_spoilt_line() {
     };
     mapped(&mapping.replace("step_s", "step_min"), &["room.toml:", "unknown key `step_min` in `time`", "`step_s`?"]);
     mapped(&mapping.replace("\"kw\"", "\"kilowatt\""), &["room.toml:", "cannot be `kilowatt`"]);
-    let line = mapping.lines().position(|line| line.starts_with("bandwidth_h = ")).expect("every setting is written");
-    let bandwidth = mapping.lines().nth(line).expect("it is there");
+    let mut numbered = mapping.lines().enumerate();
+    let (line, bandwidth) = numbered.find(|(_, line)| line.starts_with("bandwidth_h = ")).expect("it is written");
     let place = format!("room.toml:{}:15: ", line + 1);
     mapped(&mapping.replace(bandwidth, "bandwidth_h = 0.001"), &[&place, "`identify.bandwidth_h` is 0.001"]);
     fs::remove_file(folder.join("room.toml")).expect("it was there");
