@@ -341,7 +341,7 @@ fn identify_prints_a_table_and_draws_plots() {
     let folder = classroom("identify-plots");
     let outcome = interplay(&folder, &["identify", "room.csv"]);
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
-    let pieces = ["what is known", "heat capacity", "kJ/K", "24 h ahead", "--details"];
+    let pieces = ["what is known", "heat capacity", "kJ/K", "24.00 h ahead", "--details"];
     assert!(pieces.iter().all(|piece| outcome.stdout.contains(piece)), "{}", outcome.stdout);
     assert!(outcome.stdout.lines().count() <= 40, "{}", outcome.stdout);
     let outcome = interplay(&folder, &["identify", "room.csv", "--details", "--out", "plots/new"]);
