@@ -84,7 +84,7 @@ mod tests {
     #[test]
     fn quantities_of_a_planner_have_different_path_names() {
         // These do not plan for a vehicle, or need a file or a command, and have no diagnostics.
-        let others = ["external", "inputs", "pipe", "policy", "recorded", "walker"];
+        let others = ["external", "inputs", "policy", "recorded", "walker"];
         for kind in Registry::standard().driver_kinds().into_iter().filter(|kind| !others.contains(kind)) {
             let scenario =
                 load("lane-change/front-nice", &[Override::Planner(kind.to_owned())]).expect("every kind may drive");
