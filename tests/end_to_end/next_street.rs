@@ -23,14 +23,6 @@ struct Case {
 
 /// The cases that are wrong today: file, driver of the ego, and why.
 const KNOWN_FAILURES: &[(&str, &str, &str)] = &[
-    (
-        "mini-red2",
-        "human",
-        "the lane is free behind any slow vehicle, and a vehicle that has stood since it was first seen counts as parked",
-    ),
-    ("mini-zebra2", "human", "the lane is free behind any slow vehicle, also before a zebra crossing"),
-    ("jam-2way", "human", "the lane is free behind a vehicle that waits to turn"),
-    ("stop-and-go", "negotiation", "lane lines bind on networks only"),
     ("mini-oncoming", "human", "no vehicle counts as head-on in one lane"),
     ("mini-oncoming", "idm", "no vehicle counts as head-on in one lane"),
     ("mini-backer", "human", "a body across the road is taken to lie along it"),
@@ -44,11 +36,6 @@ const KNOWN_FAILURES: &[(&str, &str, &str)] = &[
     ("parked-both-net", "game", "both directions pass their row at the same time and meet"),
     ("zip-works", "human", "parallel lanes of a straight road know no obstacles"),
     ("gate-3.5", "human", "0.9 m are wanted to each side of an obstacle, and the other obstacle counts as traffic"),
-    (
-        "gate-3.5",
-        "conservative",
-        "0.9 m are wanted to each side of an obstacle, and the other obstacle counts as traffic",
-    ),
     ("gate-2.9", "human", "0.9 m are wanted to each side of an obstacle, and the other obstacle counts as traffic"),
     (
         "gate-2.9",
@@ -68,11 +55,7 @@ const KNOWN_FAILURES: &[(&str, &str, &str)] = &[
         "of two routes in one direction the first to arrive goes first, also where one turns",
     ),
     ("keep-clear", "human", "no rule asks for room behind a junction"),
-    ("zebra-keep-clear", "human", "no rule asks for room behind a zebra crossing"),
-    ("zebra-keep-clear", "conservative", "no rule asks for room behind a zebra crossing"),
-    ("zebra-keep-clear", "negotiation", "no rule asks for room behind a zebra crossing"),
     ("double-drop", "human", "drivers brake fully for those who want in"),
-    ("tractor-queue", "human", "no term bounds the time on the oncoming side"),
     (
         "tough-never-overtakes",
         "human/tough",
@@ -83,20 +66,13 @@ const KNOWN_FAILURES: &[(&str, &str, &str)] = &[
         "human/assertive",
         "assertive drivers neither overtake nor return to the middle of their lane",
     ),
-    ("motorway-jam", "human", "straight parallel lanes have no lane lines"),
     ("handover-beside-middle", "human", "a driver that takes over beside the middle stays there"),
     (
         "steering-rate-fork",
         "conservative",
         "plans bound the steering rate by comfort only, and the motion by the limit",
     ),
-    (
-        "steering-rate-three-lanes",
-        "human",
-        "plans bound the steering rate by comfort only, and the motion by the limit",
-    ),
-    ("crosswalk-is-longest.xml", "import", "the ego starts on the longest lane, whatever it is for"),
-    ("four-way-R1-3.xml", "import", "the importer drops the sign and its line"),
+    ("amber-stop", "human", "the vehicle behind creeps towards the next one and does not come to rest"),
 ];
 
 const ALL_KINDS: &[&str] = &["human", "idm", "conservative", "negotiation"];

@@ -141,6 +141,8 @@ fn check_accepts_every_authored_scenario_as_a_file() {
     let outcome = interplay(&folder, &["check", "."]);
     assert_eq!((outcome.code, outcome.stderr.as_str()), (Some(0), ""));
     let (fine, notes): (Vec<&str>, Vec<&str>) = outcome.stdout.lines().partition(|line| line.starts_with("ok  "));
+    let (of_others, notes): (Vec<&str>, Vec<&str>) = notes.into_iter().partition(|line| line.starts_with("    its "));
+    assert!(of_others.iter().all(|line| line.contains("counterfactual")), "{}", outcome.stdout);
     let (costs, notes): (Vec<&str>, Vec<&str>) = notes.into_iter().partition(|line| line.starts_with("    makes "));
     assert_eq!((fine.len(), costs.len()), (embedded().len(), embedded().len()), "{}", outcome.stdout);
     // On the motorway plans of 6 s end up to 1 s before a car could stop; their figures are as they were measured.
