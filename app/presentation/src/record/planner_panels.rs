@@ -83,8 +83,8 @@ mod tests {
     /// Otherwise two curves of one planner would share a path.
     #[test]
     fn quantities_of_a_planner_have_different_path_names() {
-        // These do not plan for a vehicle, or need a file or a command, and have no diagnostics.
-        let others = ["external", "inputs", "policy", "recorded", "walker"];
+        // These do not plan for a vehicle, or need a file, and have no diagnostics.
+        let others = ["external", "inputs", "recorded", "walker"];
         for kind in Registry::standard().driver_kinds().into_iter().filter(|kind| !others.contains(kind)) {
             let scenario =
                 load("lane-change/front-nice", &[Override::Planner(kind.to_owned())]).expect("every kind may drive");

@@ -208,7 +208,7 @@ fn planners_report_every_quantity_of_their_panels() {
     let planning = Registry::standard()
         .driver_kinds()
         .into_iter()
-        .filter(|kind| !["external", "inputs", "policy", "recorded", "walker"].contains(kind));
+        .filter(|kind| !["external", "inputs", "recorded", "walker"].contains(kind));
     for kind in planning {
         let mut scenario = scenario(Some(kind));
         scenario.duration_s = 0.5;
