@@ -68,7 +68,7 @@ fn braking_behind(ego: &Agent, leader: &Agent, own_m: f64, comfortable_mps2: f64
 }
 
 /// The braking that ends a speed within a way \[m/s²\].
-fn braking_within(speed_mps: f64, way_m: f64) -> f64 {
+pub(crate) fn braking_within(speed_mps: f64, way_m: f64) -> f64 {
     if speed_mps <= 0.0 {
         return 0.0;
     }

@@ -12,6 +12,7 @@ use std::sync::Arc;
 use super::neighbours::Neighbours;
 use super::road_user::RoadUser;
 use crate::drivers::SeenMotion;
+use crate::rules::urgency::braking_within;
 use crate::rules::{Arrivals, Obliged, Order, RoadRules};
 use crate::{Agent, Input, Trajectory};
 
@@ -196,9 +197,8 @@ fn as_it_shows(vehicle: &Agent, rules: RoadRules) -> RoadRules {
     let Agent { route, body, state, previous_input, .. } = vehicle;
     let waits = rules.stop_line_m.is_none_or(|line_m| {
         let way_m = (line_m - route.along(state.position()) - body.front_m).max(LEAST_WAY_M * body.real_ratio());
-        let unseen_mps2 =
-            state.speed_mps * state.speed_mps / (2.0 * way_m) - (-previous_input.acceleration_mps2).max(0.0);
-        unseen_mps2 <= UNSEEN_BRAKING_MPS2
+        let braking_mps2 = (-previous_input.acceleration_mps2).max(0.0);
+        braking_within(state.speed_mps, way_m) - braking_mps2 <= UNSEEN_BRAKING_MPS2
     });
     let rules = RoadRules { passes: None, ..rules };
     if waits { rules } else { RoadRules { stop_line_m: None, waits_for: Vec::new(), ..rules } }

@@ -33,8 +33,8 @@ pub fn refused<'a>(scene: &Scene, plan: &Trajectory, violations: &'a [PlanViolat
     fault.or_else(|| contact.filter(|_| gives_away_the_last_way_out(scene, plan)))
 }
 
-/// The same for a driver who sees the motion of the others only, with bodies as long as their spread. Where no motion without a contact is left, a plan is
-/// refused if one with a weaker impact is.
+/// The same for a driver who sees the motion of the others only, with bodies as long as their spread. Where no motion without a contact
+/// is left, a plan is refused if one with a weaker impact is.
 pub fn refused_by_motion(scene: &Scene, plan: &Trajectory, violations: &[PlanViolation]) -> Option<PlanViolation> {
     let fault = violations.iter().find(|violation| violation.is_fault());
     fault.cloned().or_else(|| {

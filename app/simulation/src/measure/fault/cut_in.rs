@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use interplay_planners::State;
 use interplay_planners::scene::duties::{needed_braking_mps2, owed_gap_m};
 
-use super::road_user::{REMEMBERED_S, RoadUser};
+use super::road_user::RoadUser;
 use crate::state::frame::{Event, Frame, Level};
 use crate::state::standing::STANDING_MPS;
 
@@ -80,8 +80,7 @@ impl CutIns {
 
     /// Notes which vehicles have come into the way of one behind them in a tick with less than the gap that they owe.
     pub fn note(&mut self, users: &[RoadUser], frame: &mut Frame, after: &[State]) {
-        let remembered_s = |pair: &[usize; 2]| REMEMBERED_S * users[pair[0]].time_ratio();
-        self.0.retain(|pair, cut_in| frame.time_s - cut_in.time_s <= remembered_s(pair));
+        self.0.retain(|pair, cut_in| frame.time_s - cut_in.time_s <= users[pair[0]].remembered_s());
         let is_judged = |index: &usize| users[*index].knows_comfort && !frame.vehicles[*index].is_absent;
         let judged: Vec<usize> = (0..users.len().min(after.len())).filter(is_judged).collect();
         let mut found = Vec::new();

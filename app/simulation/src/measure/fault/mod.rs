@@ -24,7 +24,7 @@ use interplay_scenarios::Vehicle;
 use crate::state::frame::{ContactFault, Frame};
 use crate::state::standing::STANDING_MPS;
 use cut_in::{CutIn, CutIns};
-use road_user::{REMEMBERED_S, RoadUser};
+use road_user::RoadUser;
 
 /// What has to be remembered of a run to say which vehicle is at fault. Vehicles are numbered in the scenario's order.
 #[derive(Clone, Debug)]
@@ -63,8 +63,7 @@ impl Faults {
 
     /// Updates standing times and duties to wait at the beginning of a tick.
     fn remember(&mut self, frame: &Frame, step_s: f64) {
-        let remembered_s = |pair: &[usize; 2]| REMEMBERED_S * self.users[pair[0]].time_ratio();
-        self.waited_s.retain(|pair, waited_s| frame.time_s - *waited_s <= remembered_s(pair));
+        self.waited_s.retain(|pair, waited_s| frame.time_s - *waited_s <= self.users[pair[0]].remembered_s());
         for (user, vehicle) in self.users.iter_mut().zip(&frame.vehicles) {
             let stands = vehicle.state.speed_mps < STANDING_MPS * user.time_ratio();
             user.stood_s = if stands { user.stood_s + step_s } else { 0.0 };

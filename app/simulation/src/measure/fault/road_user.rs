@@ -10,7 +10,7 @@ const STOOD_S: f64 = 1.0;
 /// A body is out of its lane if it is beyond the line by this share of its width.
 const OUT_WIDTHS: f64 = 0.1;
 /// For how long a gap that was too short, and a duty to wait, count, for a real car \[s\].
-pub(super) const REMEMBERED_S: f64 = 5.0;
+const REMEMBERED_S: f64 = 5.0;
 
 /// A vehicle, with the time for which it has stood \[s\].
 #[derive(Clone, Debug)]
@@ -37,6 +37,11 @@ impl RoadUser {
 
     pub fn time_ratio(&self) -> f64 {
         self.body.real_ratio().sqrt()
+    }
+
+    /// For how long a gap that was too short, and a duty to wait, count against it \[s\].
+    pub fn remembered_s(&self) -> f64 {
+        REMEMBERED_S * self.time_ratio()
     }
 
     pub fn length_m(&self) -> f64 {
