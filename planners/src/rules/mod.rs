@@ -22,6 +22,7 @@ mod lane;
 mod lights;
 mod obliged;
 pub(crate) mod obstacle;
+mod queue;
 pub(crate) mod right_of_way;
 pub(crate) mod urgency;
 mod waiting;

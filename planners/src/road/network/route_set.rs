@@ -68,6 +68,11 @@ impl Route {
         self.number.is_some()
     }
 
+    /// The places where other routes of the same set cross this one.
+    pub(crate) fn crossings(&self) -> impl Iterator<Item = &RouteConflict> {
+        self.conflicts.iter().filter(|conflict| conflict.kind == ConflictKind::Crossing)
+    }
+
     /// The places where the route meets another one of the same set, in the order along this route.
     pub fn conflicts_with<'a>(&'a self, other: &Route) -> impl Iterator<Item = &'a RouteConflict> {
         let number = other.number;
