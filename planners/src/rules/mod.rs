@@ -10,6 +10,7 @@
 //! - until it has stood there once, if the sign says so,
 //! - while a vehicle that goes first comes so soon that it could not clear the conflict before,
 //! - while a vehicle that goes first has stopped there first, because it waits for a third one,
+//! - while there is no room behind a way that crosses its own,
 //! - while a vehicle is in the conflict, or past the own line towards it,
 //! - where the first to arrive goes first, while a vehicle waits that came before.
 //!
@@ -18,6 +19,7 @@
 
 mod arrivals;
 pub(crate) mod giving_way;
+mod keep_clear;
 mod lane;
 mod lights;
 mod obliged;
@@ -181,7 +183,10 @@ fn asked(arrivals: &Arrivals, user: &Obliged<'_>, users: &[Obliged<'_>], holds: 
     let is_lit = |line_m: &f64| lights::is_lit(ego, *line_m, time_s);
     let signs = signed_lines(ego).into_iter().filter(|line_m| !is_lit(line_m) && !arrivals.has_stood_at(ego, *line_m));
     let signs = signs.filter(|line_m| can_stop(ego, line_m - before_m));
+    let others = users.iter().map(|other| other.agent).filter(|other| other.name != ego.name);
+    let clear = keep_clear::line_m(ego, others);
     let lines = signs.chain(holds.iter().map(|hold| hold.line_m)).chain(lights::line_m(ego, time_s));
+    let lines = lines.chain(clear.map(|(line_m, _)| line_m));
     let nearest_m = lines.min_by(f64::total_cmp);
     let mut waits_for: Vec<String> = Vec::new();
     for hold in holds.iter().filter(|hold| Some(hold.line_m) == nearest_m) {
@@ -192,7 +197,10 @@ fn asked(arrivals: &Arrivals, user: &Obliged<'_>, users: &[Obliged<'_>], holds: 
     }
     let stays_in_lane = lane::stays_in_lane(user, users);
     let stop_line_m = nearest_m.map(|line_m| line_m - before_m);
-    RoadRules { are_kept: user.keeps_rules, stays_in_lane, stop_line_m, waits_for, ..RoadRules::default() }
+    let keeps_clear_behind =
+        clear.filter(|(line_m, _)| Some(*line_m) == nearest_m).map(|(_, ahead)| ahead.name.clone());
+    let are_kept = user.keeps_rules;
+    RoadRules { are_kept, stays_in_lane, stop_line_m, waits_for, keeps_clear_behind, ..RoadRules::default() }
 }
 
 /// What is asked where a road has no signs and no lanes that meet: to drive no faster than one wants in order to be first.
