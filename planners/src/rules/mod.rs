@@ -28,17 +28,18 @@ mod queue;
 pub(crate) mod right_of_way;
 pub(crate) mod urgency;
 mod waiting;
+mod wrong_way;
 
 pub(crate) use arrivals::Arrivals;
 pub(crate) use obliged::Obliged;
 
 use std::collections::BTreeMap;
 
-use crate::Scene;
 use crate::rules::giving_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
 use crate::rules::obstacle::{Manoeuvre, ObstacleMemory};
 use crate::scene::relation::is_standing;
 pub use crate::scene::road_rules::{Obstacle, RoadRules, RuleKeeping};
+use crate::{Scene, State};
 use waiting::Hold;
 
 /// What has to be remembered of the past to judge the present: which vehicle has arrived where, and when.
@@ -98,8 +99,14 @@ impl RuleBook {
     }
 
     /// Adds what an obstacle asks of the planning vehicle of a scene, if it keeps the rules: it leaves its lane for it only while no
-    /// vehicle comes. To be called once a tick.
+    /// vehicle comes. Before a vehicle that comes head-on in its lane, it brakes and goes to the edge. To be called once a tick.
     pub(crate) fn hold_behind_obstacle(&mut self, scene: &mut Scene) {
+        if let Some(evasion) = wrong_way::evasion(scene) {
+            scene.ego.rules.stop_before(evasion.line_m);
+            let along_m = scene.ego.route.along(scene.ego.state.position());
+            let [x_m, y_m] = scene.ego.route.position(along_m, evasion.across_m);
+            scene.goal.target = State { x_m, y_m, ..scene.goal.target };
+        }
         let memory = self.obstacles.entry(scene.ego.name.clone()).or_default();
         match memory.judge(scene) {
             Some(Manoeuvre::Wait(obstacle, waits_for)) => {

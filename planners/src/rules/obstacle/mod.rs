@@ -136,12 +136,15 @@ impl ObstacleMemory {
         let candidates = scene.others.iter().filter(|other| is_standing(other) && !self.is_queueing(scene, other));
         let obstacles = candidates.filter_map(|other| {
             let at = ego.route.locate(other.state.position(), None);
-            let reach = [
-                0.5 * (ego.body.front_m + ego.body.rear_m + other.body.front_m + other.body.rear_m),
-                0.5 * (ego.body.width_m + other.body.width_m),
-            ];
+            let [half_length_m, half_width_m] = other.half_extents_m(at.heading_rad);
+            let reach =
+                [0.5 * (ego.body.front_m + ego.body.rear_m) + half_length_m, 0.5 * ego.body.width_m + half_width_m];
             let blocks = |lateral_m: f64| (at.across_m - lateral_m).abs() < reach[1] + NEAR_PATH_M * ego.body.scale;
-            let along_m = [at.along_m - other.body.rear_m, at.along_m + other.body.front_m];
+            let along_m = if other.is_obstacle {
+                [at.along_m - half_length_m, at.along_m + half_length_m]
+            } else {
+                [at.along_m - other.body.rear_m, at.along_m + other.body.front_m]
+            };
             let is_ahead = along_m[1] > own_m - ego.body.rear_m && along_m[0] < own_m + reach_m;
             let found = Obstacle {
                 name: other.name.clone(),
