@@ -138,8 +138,11 @@ impl Scene {
 
     /// What keeps the planning vehicle from touching a vehicle that waits for it or is oncoming, or an obstacle.
     pub(crate) fn beside(&self, other: &Agent, penalty: Penalty) -> KeepOut {
-        let beside_m = 0.5 * (self.ego.body.width_m + other.body.width_m) + ASIDE_M * self.ego.body.scale;
-        self.around(other, containing(self.half_axis_m(other, 0.0), beside_m), penalty)
+        let ego = &self.ego.body;
+        let [half_length_m, half_width_m] = other.half_extents_m(other.route.heading_at(other.state.position()));
+        let along_m = 0.5 * (ego.front_m + ego.rear_m) + half_length_m;
+        let beside_m = 0.5 * ego.width_m + half_width_m + ASIDE_M * ego.scale;
+        self.around(other, containing(along_m, beside_m), penalty)
     }
 
     /// The ellipse that a planner asks another vehicle to leave it: the safety ellipse, and before or behind one in another lane of which

@@ -1,6 +1,7 @@
 //! Who stays in its lane.
 
 use super::obliged::Obliged;
+use super::queue;
 use crate::Agent;
 use crate::road::centre_line::FrenetPoint;
 use crate::scene::relation::is_standing;
@@ -17,7 +18,8 @@ const OVERTAKING_LENGTHS: f64 = 6.0;
 const SPARE_S: f64 = 0.8;
 
 /// Whether a road user has to stay in the lane of its route: it is in it, no lane beside is its aim, and no slow vehicle is ahead
-/// that it could overtake before another one comes. A stationary vehicle in the lane does not count: it may be in a queue.
+/// that it could overtake before another one comes, and before a light or a crossing way. A stationary vehicle in the lane does not
+/// count, and neither does one that waits.
 pub(super) fn stays_in_lane(user: &Obliged<'_>, users: &[Obliged<'_>]) -> bool {
     let ego = &user.agent;
     let Some(lane) = ego.route.own_lane() else { return false };
@@ -29,9 +31,12 @@ pub(super) fn stays_in_lane(user: &Obliged<'_>, users: &[Obliged<'_>]) -> bool {
     let others = users.iter().filter(|other| other.agent.name != ego.name);
     let places = others.map(|other| (other.agent, ego.route.locate(other.agent.state.position(), None)));
     let places: Vec<(&Agent, FrenetPoint)> = places.collect();
-    let times = places.iter().filter_map(|(other, at)| overtaking_s(user, own_m, other, at));
+    let agents = places.iter().map(|(other, _)| *other);
+    let slow = places.iter().filter_map(|(other, at)| Some((*other, overtaking_s(user, own_m, other, at)?)));
+    let times = slow.filter(|(other, _)| !queue::waits(other, agents.clone())).map(|(_, time_s)| time_s);
     let Some(time_s) = times.reduce(f64::max) else { return true };
-    places.iter().any(|(other, at)| comes_within(user, own_m, other, at, time_s))
+    is_forbidden(ego, [own_m, own_m + user.wanted_mps * time_s])
+        || places.iter().any(|(other, at)| comes_within(user, own_m, other, at, time_s))
 }
 
 /// How long it takes to overtake a slow vehicle ahead in the lane; none of all others \[s\].
@@ -46,6 +51,13 @@ fn overtaking_s(user: &Obliged<'_>, own_m: f64, other: &Agent, at: &FrenetPoint)
     let is_ahead = (0.0..reach_m).contains(&lead_m) && is_in_lane && is_slow && !is_standing(other);
     let length_m = ego.body.front_m + ego.body.rear_m;
     is_ahead.then(|| (lead_m + OVERTAKING_LENGTHS * length_m) / (user.wanted_mps - along_mps))
+}
+
+/// Whether overtaking is forbidden somewhere on a stretch of a vehicle's route: at a light, or where another way crosses \[m\].
+fn is_forbidden(ego: &Agent, [from_m, to_m]: [f64; 2]) -> bool {
+    let is_on = |along_m: f64| (from_m..to_m).contains(&along_m);
+    let is_lit = ego.route.legs.iter().any(|leg| leg.light.is_some() && is_on(leg.to_m));
+    is_lit || ego.route.crossings().any(|way| way.own_m[0] < to_m && way.own_m[1] > from_m)
 }
 
 /// Whether a vehicle is oncoming within a time.

@@ -10,6 +10,7 @@
 //! - until it has stood there once, if the sign says so,
 //! - while a vehicle that goes first comes so soon that it could not clear the conflict before,
 //! - while a vehicle that goes first has stopped there first, because it waits for a third one,
+//! - while there is no room behind a way that crosses its own,
 //! - while a vehicle is in the conflict, or past the own line towards it,
 //! - where the first to arrive goes first, while a vehicle waits that came before.
 //!
@@ -18,24 +19,27 @@
 
 mod arrivals;
 pub(crate) mod giving_way;
+mod keep_clear;
 mod lane;
 mod lights;
 mod obliged;
 pub(crate) mod obstacle;
+mod queue;
 pub(crate) mod right_of_way;
 pub(crate) mod urgency;
 mod waiting;
+mod wrong_way;
 
 pub(crate) use arrivals::Arrivals;
 pub(crate) use obliged::Obliged;
 
 use std::collections::BTreeMap;
 
-use crate::Scene;
 use crate::rules::giving_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
 use crate::rules::obstacle::{Manoeuvre, ObstacleMemory};
 use crate::scene::relation::is_standing;
 pub use crate::scene::road_rules::{Obstacle, RoadRules, RuleKeeping};
+use crate::{Scene, State};
 use waiting::Hold;
 
 /// What has to be remembered of the past to judge the present: which vehicle has arrived where, and when.
@@ -95,8 +99,14 @@ impl RuleBook {
     }
 
     /// Adds what an obstacle asks of the planning vehicle of a scene, if it keeps the rules: it leaves its lane for it only while no
-    /// vehicle comes. To be called once a tick.
+    /// vehicle comes. Before a vehicle that comes head-on in its lane, it brakes and goes to the edge. To be called once a tick.
     pub(crate) fn hold_behind_obstacle(&mut self, scene: &mut Scene) {
+        if let Some(evasion) = wrong_way::evasion(scene) {
+            scene.ego.rules.stop_before(evasion.line_m);
+            let along_m = scene.ego.route.along(scene.ego.state.position());
+            let [x_m, y_m] = scene.ego.route.position(along_m, evasion.across_m);
+            scene.goal.target = State { x_m, y_m, ..scene.goal.target };
+        }
         let memory = self.obstacles.entry(scene.ego.name.clone()).or_default();
         match memory.judge(scene) {
             Some(Manoeuvre::Wait(obstacle, waits_for)) => {
@@ -180,7 +190,10 @@ fn asked(arrivals: &Arrivals, user: &Obliged<'_>, users: &[Obliged<'_>], holds: 
     let is_lit = |line_m: &f64| lights::is_lit(ego, *line_m, time_s);
     let signs = signed_lines(ego).into_iter().filter(|line_m| !is_lit(line_m) && !arrivals.has_stood_at(ego, *line_m));
     let signs = signs.filter(|line_m| can_stop(ego, line_m - before_m));
+    let others = users.iter().map(|other| other.agent).filter(|other| other.name != ego.name);
+    let clear = keep_clear::line_m(ego, others);
     let lines = signs.chain(holds.iter().map(|hold| hold.line_m)).chain(lights::line_m(ego, time_s));
+    let lines = lines.chain(clear.map(|(line_m, _)| line_m));
     let nearest_m = lines.min_by(f64::total_cmp);
     let mut waits_for: Vec<String> = Vec::new();
     for hold in holds.iter().filter(|hold| Some(hold.line_m) == nearest_m) {
@@ -191,7 +204,10 @@ fn asked(arrivals: &Arrivals, user: &Obliged<'_>, users: &[Obliged<'_>], holds: 
     }
     let stays_in_lane = lane::stays_in_lane(user, users);
     let stop_line_m = nearest_m.map(|line_m| line_m - before_m);
-    RoadRules { are_kept: user.keeps_rules, stays_in_lane, stop_line_m, waits_for, ..RoadRules::default() }
+    let keeps_clear_behind =
+        clear.filter(|(line_m, _)| Some(*line_m) == nearest_m).map(|(_, ahead)| ahead.name.clone());
+    let are_kept = user.keeps_rules;
+    RoadRules { are_kept, stays_in_lane, stop_line_m, waits_for, keeps_clear_behind, ..RoadRules::default() }
 }
 
 /// What is asked where a road has no signs and no lanes that meet: to drive no faster than one wants in order to be first.

@@ -104,6 +104,17 @@ impl Agent {
 }
 
 impl Agent {
+    /// Half of the length and of the width of the body \[m\]; of an obstacle, those of the rectangle in a direction that contains it.
+    pub(crate) fn half_extents_m(&self, heading_rad: f64) -> [f64; 2] {
+        let halves_m = [0.5 * (self.body.front_m + self.body.rear_m), 0.5 * self.body.width_m];
+        if !self.is_obstacle {
+            return halves_m;
+        }
+        let (sin, cos) = libm::sincos(self.state.heading_rad - heading_rad);
+        let [length_m, width_m] = halves_m;
+        [cos.abs() * length_m + sin.abs() * width_m, sin.abs() * length_m + cos.abs() * width_m]
+    }
+
     /// Whether the rules hold another vehicle for this one.
     pub(crate) fn is_waited_for_by(&self, other: &Agent) -> bool {
         other.rules.waits_for.contains(&self.name)

@@ -48,6 +48,8 @@ pub struct RoadRules {
     pub stays_in_lane: bool,
     /// How far along its route the front may come now; none if nothing holds it \[m\].
     pub stop_line_m: Option<f64>,
+    /// The vehicle ahead that leaves no room behind a crossing way, before which it waits at the line.
+    pub keeps_clear_behind: Option<String>,
     /// What stands in its lane and is passed now; there is room.
     pub passes: Option<Obstacle>,
     /// The vehicle ahead behind which it stays, of a driver who sees the motion of the others only.

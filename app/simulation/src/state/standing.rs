@@ -170,6 +170,9 @@ impl<'a> Standing<'a> {
             }
         }
         let line_m = rules.stop_line_m.filter(|line_m| line_m - front_m < NEAR_M * scale);
+        if let Some(name) = rules.keeps_clear_behind.as_ref().filter(|_| line_m.is_some()) {
+            return Some(StandingReason::Behind(name.clone()));
+        }
         line_m.map(|line_m| match rules.waits_for.as_slice() {
             [] if self.is_lit(index, line_m) => StandingReason::Light,
             [] => StandingReason::Sign,

@@ -68,6 +68,11 @@ impl Route {
         self.number.is_some()
     }
 
+    /// The places where other routes of the same set cross this one.
+    pub(crate) fn crossings(&self) -> impl Iterator<Item = &RouteConflict> {
+        self.conflicts.iter().filter(|conflict| conflict.kind == ConflictKind::Crossing)
+    }
+
     /// The places where the route meets another one of the same set, in the order along this route.
     pub fn conflicts_with<'a>(&'a self, other: &Route) -> impl Iterator<Item = &'a RouteConflict> {
         let number = other.number;
@@ -158,6 +163,10 @@ impl Approach {
         }
     }
 
+    fn turns(&self) -> bool {
+        self.turn_rad.abs() > LEFT_TURN_RAD
+    }
+
     fn turns_left(&self) -> bool {
         self.turn_rad > LEFT_TURN_RAD
     }
@@ -176,8 +185,16 @@ fn precedence(own: &Approach, other: &Approach, kind: ConflictKind) -> Precedenc
         _ => {}
     }
     let from_right_rad = turn_rad(own.heading_rad, other.heading_rad);
-    if kind == ConflictKind::HeadOn || from_right_rad.abs() < SAME_SIDE_RAD {
+    if kind == ConflictKind::HeadOn {
         return Precedence::ByArrival;
+    }
+    if from_right_rad.abs() < SAME_SIDE_RAD {
+        // A vehicle that turns gives way to those that go straight on beside it.
+        return match (own.turns(), other.turns()) {
+            (true, false) if kind == ConflictKind::Crossing => Precedence::Other,
+            (false, true) if kind == ConflictKind::Crossing => Precedence::Own,
+            _ => Precedence::ByArrival,
+        };
     }
     if from_right_rad.abs() > PI - SAME_SIDE_RAD {
         return match (own.turns_left(), other.turns_left()) {

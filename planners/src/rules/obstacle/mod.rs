@@ -1,6 +1,6 @@
 //! What stands in the way: whether it is passed, where, and which vehicle a driver waits for before.
 //!
-//! A vehicle that stands in a driver's lane is one of three things. It waits in a queue, at a line or behind another one: then it is
+//! A vehicle that stands in a driver's lane is one of two things. It waits in a queue (`rules::queue`): then it is
 //! followed. Or it is an obstacle: then it is passed, beside its body, on a part of the road that may belong to others. That is done only
 //! while no other vehicle comes to that part before the driver is back in its lane ([`room`]); until then the driver waits behind. The
 //! condition is hard, whatever the driver's style, and is checked again at each tick: a driver who is not beside the obstacle yet goes
@@ -14,6 +14,7 @@ pub(crate) use standing::swing_m;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use crate::rules::queue;
 use crate::scene::relation::is_standing;
 use crate::scene::road_rules::Obstacle;
 use crate::{Agent, Scene};
@@ -24,8 +25,6 @@ const NEAR_PATH_M: f64 = 0.02;
 const OUT_OF_LANE_M: f64 = 0.08;
 /// An obstacle is looked for as far ahead as a driver comes in this time at the speed that it wants, for 1/10 scale cars \[s\].
 const LOOK_AHEAD_S: f64 = 2.5;
-/// A vehicle that stands for longer than this does not count as part of a queue, for 1/10 scale cars \[s\].
-const PARKED_S: f64 = 4.0;
 /// A vehicle with another one ahead within this many lengths of a car stands in a queue.
 const QUEUE_LENGTHS: f64 = 2.5;
 
@@ -137,12 +136,15 @@ impl ObstacleMemory {
         let candidates = scene.others.iter().filter(|other| is_standing(other) && !self.is_queueing(scene, other));
         let obstacles = candidates.filter_map(|other| {
             let at = ego.route.locate(other.state.position(), None);
-            let reach = [
-                0.5 * (ego.body.front_m + ego.body.rear_m + other.body.front_m + other.body.rear_m),
-                0.5 * (ego.body.width_m + other.body.width_m),
-            ];
+            let [half_length_m, half_width_m] = other.half_extents_m(at.heading_rad);
+            let reach =
+                [0.5 * (ego.body.front_m + ego.body.rear_m) + half_length_m, 0.5 * ego.body.width_m + half_width_m];
             let blocks = |lateral_m: f64| (at.across_m - lateral_m).abs() < reach[1] + NEAR_PATH_M * ego.body.scale;
-            let along_m = [at.along_m - other.body.rear_m, at.along_m + other.body.front_m];
+            let along_m = if other.is_obstacle {
+                [at.along_m - half_length_m, at.along_m + half_length_m]
+            } else {
+                [at.along_m - other.body.rear_m, at.along_m + other.body.front_m]
+            };
             let is_ahead = along_m[1] > own_m - ego.body.rear_m && along_m[0] < own_m + reach_m;
             let found = Obstacle {
                 name: other.name.clone(),
@@ -156,22 +158,20 @@ impl ObstacleMemory {
         obstacles.min_by(|a, b| a.along_m[0].total_cmp(&b.along_m[0]))
     }
 
-    /// Whether a vehicle that stands waits in a queue: at a line, or behind another one.
+    /// Whether a vehicle that stands waits in a queue: for a visible reason, or since it came to a stop close behind another one.
     fn is_queueing(&self, scene: &Scene, other: &Agent) -> bool {
         if other.is_obstacle {
             return false;
         }
-        let since = self.standing_since.get(&other.name).copied().unwrap_or(scene.tick);
-        let stood_s = (scene.tick - since) as f64 * scene.step_s;
-        if since == 0 || stood_s > PARKED_S * scene.ego.body.time_ratio() {
-            return other.rules.stop_line_m.is_some();
+        if queue::waits(other, scene.others.iter()) {
+            return true;
         }
+        let has_come = self.standing_since.get(&other.name).is_none_or(|since| *since > 0);
         let length_m = scene.ego.body.front_m + scene.ego.body.rear_m;
-        let others = scene.others.iter().filter(|third| third.name != other.name);
         let is_next = |third: &Agent| {
             let lead_m = other.lead_of(third);
             other.shares_lane_with(third) && lead_m > 0.0 && lead_m < (QUEUE_LENGTHS + 1.0) * length_m
         };
-        other.rules.stop_line_m.is_some() || others.into_iter().any(is_next)
+        has_come && scene.others.iter().filter(|third| third.name != other.name).any(is_next)
     }
 }

@@ -35,8 +35,14 @@ pub(super) fn in_the_way<'a>(
     let zone_m = [(obstacle.along_m[0] - swing_m).max(own_m), end_m + swing_m + ego.body.rear_m];
     let spare_s = if is_under_way { SPARE_UNDER_WAY_S } else { SPARE_S } * ego.body.time_ratio();
     let until_s = time_s(scene, zone_m[1] - own_m) + spare_s;
-    let others = scene.others.iter().filter(|other| other.name != obstacle.name);
+    // What stands without a driver leaves no more room later.
+    let others = scene.others.iter().filter(|other| other.name != obstacle.name && !is_parked(other));
     others.into_iter().find(|other| comes_into(scene, other, obstacle, zone_m, until_s))
+}
+
+/// Whether an obstacle without a driver stands.
+fn is_parked(other: &Agent) -> bool {
+    other.is_obstacle && is_standing(other)
 }
 
 /// Where a row of obstacles ends that begins with one and between which no room is left to come back into the lane and to wait \[m\].

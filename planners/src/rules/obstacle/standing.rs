@@ -10,7 +10,9 @@ use crate::{Agent, Body, Input, Scene, Trajectory};
 
 /// Free space to the side of an obstacle, for 1/10 scale cars \[m\]: 0.9 m of a real one.
 const SIDE_M: f64 = 0.09;
-/// Of it, a plan keeps at least this share.
+/// Least free space to each side in a gap between obstacles, for 1/10 scale cars \[m\]: 0.3 m of a real one.
+const LEAST_SIDE_M: f64 = 0.03;
+/// Of the free space, a plan keeps at least this share.
 const KEPT_SIDE_SHARE: f64 = 0.75;
 /// A driver waits this many lengths of its body behind an obstacle.
 pub(super) const WAITING_LENGTHS: f64 = 2.2;
@@ -24,16 +26,52 @@ const SWING_LENGTHS: f64 = 1.5;
 const SWING_S: f64 = 0.6;
 
 impl Obstacle {
-    /// The obstacle with the side on which there is room for a body on the road, the left one first; none if there is on neither.
+    /// The obstacle with the side on which there is room for a body between the edges of the road and other obstacles, the left one
+    /// first; none if there is on neither. Where the usual free space does not fit, the driver keeps to the middle of the gap.
     pub(super) fn with_side(&self, scene: &Scene) -> Option<Obstacle> {
-        let ego = &scene.ego;
-        let beside_m = self.reach_m[1] + SIDE_M * ego.body.scale;
-        let middle_m = 0.5 * (self.along_m[0] + self.along_m[1]);
-        let [right_m, left_m] = ego.route.edges_before_end_m(middle_m);
+        let (ego, scale) = (&scene.ego, scene.ego.body.scale);
         let half_m = 0.5 * ego.body.width_m;
-        let sides = [self.across_m + beside_m, self.across_m - beside_m];
-        let pass_at_m = sides.into_iter().find(|at_m| (right_m + half_m..=left_m - half_m).contains(at_m))?;
+        let [right_m, left_m] = self.free_between_m(scene);
+        let [least_m, usual_m] = [LEAST_SIDE_M, SIDE_M].map(|side_m| self.reach_m[1] + side_m * scale);
+        let left_m = [self.across_m + least_m, left_m - half_m];
+        let right_m = [right_m + half_m, self.across_m - least_m];
+        let usual = [(self.across_m + usual_m, left_m), (self.across_m - usual_m, right_m)];
+        let usual =
+            usual.into_iter().find(|(at_m, [from_m, to_m])| (from_m..=to_m).contains(&at_m)).map(|(at_m, _)| at_m);
+        let narrow = || [left_m, right_m].into_iter().find(|[from_m, to_m]| from_m <= to_m);
+        let pass_at_m = usual.or_else(|| narrow().map(|[from_m, to_m]| 0.5 * (from_m + to_m)))?;
         Some(Obstacle { pass_at_m, ..self.clone() })
+    }
+
+    /// Between which lateral coordinates the road is free beside the obstacle: up to the edges of the road, or to obstacles on the other
+    /// side of the way past it, less the least space beside those \[m\].
+    fn free_between_m(&self, scene: &Scene) -> [f64; 2] {
+        let ego = &scene.ego;
+        let middle_m = 0.5 * (self.along_m[0] + self.along_m[1]);
+        let length_m = ego.body.front_m + ego.body.rear_m;
+        let opposite = scene.others.iter().filter(|other| other.is_obstacle && other.name != self.name);
+        let opposite = opposite.map(|other| (ego.route.locate(other.state.position(), None), &other.body));
+        let beside = opposite.filter(|(at, body)| {
+            at.along_m + body.front_m + length_m > self.along_m[0]
+                && at.along_m - body.rear_m - length_m < self.along_m[1]
+        });
+        beside.fold(ego.route.edges_before_end_m(middle_m), |[right_m, left_m], (at, body)| {
+            let space_m = 0.5 * body.width_m + LEAST_SIDE_M * ego.body.scale;
+            let apart_m = at.across_m - self.across_m;
+            if apart_m > self.reach_m[1] {
+                [right_m, left_m.min(at.across_m - space_m)]
+            } else if apart_m < -self.reach_m[1] {
+                [right_m.max(at.across_m + space_m), left_m]
+            } else {
+                [right_m, left_m]
+            }
+        })
+    }
+
+    /// The free space beside it on the way past it: the usual one, or less in a gap \[m\].
+    fn side_m(&self, scene: &Scene) -> f64 {
+        let side_m = (self.pass_at_m - self.across_m).abs() - self.reach_m[1];
+        side_m.clamp(0.0, SIDE_M * scene.ego.body.scale)
     }
 
     /// How far the front of a driver comes who waits behind it, with room to swing out later; nearer for a driver who sees only late that
@@ -90,7 +128,7 @@ impl Obstacle {
     /// Whether a motion of the planning vehicle touches it, or comes nearer than half of a free space at each side.
     pub(crate) fn is_touched_by(&self, scene: &Scene, motion: &Trajectory, spaces: f64) -> bool {
         let Some(other) = scene.others.iter().find(|other| other.name == self.name) else { return false };
-        let body = Body { width_m: other.body.width_m + spaces * SIDE_M * scene.ego.body.scale, ..other.body };
+        let body = Body { width_m: other.body.width_m + spaces * self.side_m(scene), ..other.body };
         touches_ahead(scene, motion, &Agent { body, ..other.clone() })
     }
 
@@ -101,7 +139,7 @@ impl Obstacle {
         let middle_m = 0.5 * (self.along_m[0] + self.along_m[1]);
         let centres = vec![route.position(middle_m, self.across_m); scene.horizon];
         let [length_m, width_m] = self.reach_m;
-        let ellipse = containing(length_m, width_m + KEPT_SIDE_SHARE * SIDE_M * scene.ego.body.scale);
+        let ellipse = containing(length_m, width_m + KEPT_SIDE_SHARE * self.side_m(scene));
         KeepOut { vehicle: 0, ellipses: ellipses(ellipse, route, &centres), centres, penalty: Penalty::EXACT }
     }
 

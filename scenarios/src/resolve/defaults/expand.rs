@@ -24,6 +24,7 @@ pub(crate) fn expand(scenario: &mut Json, registry: &Registry) {
     let of_people = size.filter(|size| people::are_people(root, size.is_full));
     if let Some(Size { scale, .. }) = of_people {
         people::state_steps(root, scale);
+        people::state_overtaking(root);
     }
     if let Some(Size { scale, is_full }) = size {
         // If not stated, it is one of these two.

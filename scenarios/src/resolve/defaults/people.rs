@@ -35,6 +35,13 @@ pub(super) fn state_steps(root: &mut Map<String, Json>, scale: f64) {
     root.entry("horizon_steps").or_insert(json!(HORIZON_STEPS));
 }
 
+/// Writes into a two-way road that both directions may use the lane of the other, if the file does not say who may.
+pub(super) fn state_overtaking(root: &mut Map<String, Json>) {
+    let road = root.get_mut("road").and_then(Json::as_object_mut);
+    let Some(road) = road.filter(|road| road.get("kind").and_then(Json::as_str) == Some("two-way")) else { return };
+    road.entry("overtaking").or_insert(json!("both"));
+}
+
 /// Writes the settings of its driver into a vehicle; `schema` is that of vehicles.
 pub(super) fn state_habits(vehicle: &mut Map<String, Json>, registry: &Registry, schema: SchemaNode, scale: f64) {
     let ratio = scale / FULL_SCALE;
