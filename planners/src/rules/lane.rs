@@ -22,9 +22,7 @@ const SPARE_S: f64 = 0.8;
 /// count, and neither does one that waits.
 pub(super) fn stays_in_lane(user: &Obliged<'_>, users: &[Obliged<'_>]) -> bool {
     let ego = &user.agent;
-    let Some(lane) = ego.route.own_lane() else { return false };
-    let tolerance_m = BEYOND_LINE_M * ego.body.scale;
-    if !lane.contains(&ego.body, &ego.state, tolerance_m) || user.lateral_goal_m.abs() >= tolerance_m {
+    if !is_in_lane(ego) || user.lateral_goal_m.abs() >= BEYOND_LINE_M * ego.body.scale {
         return false;
     }
     let own_m = ego.route.along(ego.state.position());
@@ -37,6 +35,11 @@ pub(super) fn stays_in_lane(user: &Obliged<'_>, users: &[Obliged<'_>]) -> bool {
     let Some(time_s) = times.reduce(f64::max) else { return true };
     is_forbidden(ego, [own_m, own_m + user.wanted_mps * time_s])
         || places.iter().any(|(other, at)| comes_within(user, own_m, other, at, time_s))
+}
+
+/// Whether a vehicle is in the lane of its route.
+pub(super) fn is_in_lane(ego: &Agent) -> bool {
+    ego.route.own_lane().is_some_and(|lane| lane.contains(&ego.body, &ego.state, BEYOND_LINE_M * ego.body.scale))
 }
 
 /// How long it takes to overtake a slow vehicle ahead in the lane; none of all others \[s\].

@@ -24,6 +24,7 @@ mod lane;
 mod lights;
 mod obliged;
 pub(crate) mod obstacle;
+mod overtaking;
 mod queue;
 pub(crate) mod right_of_way;
 pub(crate) mod urgency;
@@ -39,7 +40,7 @@ use crate::rules::giving_way::{Arrived, Pair, can_stop, signed_lines, stopping_d
 use crate::rules::obstacle::{Manoeuvre, ObstacleMemory};
 use crate::scene::relation::is_standing;
 pub use crate::scene::road_rules::{Obstacle, RoadRules, RuleKeeping};
-use crate::{Scene, State};
+use crate::Scene;
 use waiting::Hold;
 
 /// What has to be remembered of the past to judge the present: which vehicle has arrived where, and when.
@@ -99,15 +100,23 @@ impl RuleBook {
     }
 
     /// Adds what an obstacle asks of the planning vehicle of a scene, if it keeps the rules: it leaves its lane for it only while no
-    /// vehicle comes. Before a vehicle that comes head-on in its lane, it brakes and goes to the edge. To be called once a tick.
-    pub(crate) fn hold_behind_obstacle(&mut self, scene: &mut Scene) {
-        if let Some(evasion) = wrong_way::evasion(scene) {
+    /// vehicle comes. Before a vehicle that comes head-on in its lane, it brakes and goes to the edge. `patience_s` is how long it follows a
+    /// slow vehicle before it overtakes, for 1/10 scale cars \[s\]. To be called once a tick.
+    pub(crate) fn hold_behind_obstacle(&mut self, scene: &mut Scene, patience_s: f64) {
+        let evasion = wrong_way::evasion(scene);
+        if let Some(evasion) = evasion {
             scene.ego.rules.stop_before(evasion.line_m);
-            let along_m = scene.ego.route.along(scene.ego.state.position());
-            let [x_m, y_m] = scene.ego.route.position(along_m, evasion.across_m);
-            scene.goal.target = State { x_m, y_m, ..scene.goal.target };
+            scene.drive_beside_goal(evasion.across_m);
         }
         let memory = self.obstacles.entry(scene.ego.name.clone()).or_default();
+        if let Some(other_lane_m) = overtaking::other_lane_m(&scene.ego).filter(|_| scene.knowledge.is_of_motion()) {
+            let overtakes_at_m = memory.overtaking.judge(scene, patience_s, other_lane_m);
+            let overtakes_at_m = overtakes_at_m.filter(|_| evasion.is_none());
+            scene.ego.rules.stays_in_lane = overtakes_at_m.is_none() && lane::is_in_lane(&scene.ego);
+            if let Some(across_m) = overtakes_at_m {
+                scene.drive_beside_goal(across_m);
+            }
+        }
         match memory.judge(scene) {
             Some(Manoeuvre::Wait(obstacle, waits_for)) => {
                 let line_m = obstacle.line_m(scene);

@@ -51,6 +51,14 @@ pub struct Agent {
     pub urgency: f64,
 }
 
+impl Agent {
+    /// A target moved to a lateral coordinate of the route \[m\].
+    pub(crate) fn target_at(&self, target: &State, across_m: f64) -> State {
+        let [x_m, y_m] = self.route.position(self.route.along(target.position()), across_m);
+        State { x_m, y_m, ..*target }
+    }
+}
+
 /// The side on which a vehicle indicates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IndicatorSide {
@@ -103,6 +111,12 @@ impl Scene {
     /// The bicycle model of the planning vehicle, with the plan's time step.
     pub fn model(&self) -> Bicycle {
         Bicycle::new(&self.ego.body, self.step_s)
+    }
+
+    /// Lets the planning vehicle drive at a lateral coordinate of its route for now, in place of that of its goal \[m\].
+    pub(crate) fn drive_beside_goal(&mut self, across_m: f64) {
+        self.ego.rules.drives_at_m = Some(across_m);
+        self.goal.target = self.ego.target_at(&self.goal.target, across_m);
     }
 
     /// Beside each position of a motion, the axes along the ego's road and across it, and the goal's position; on a curved road,

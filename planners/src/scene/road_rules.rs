@@ -50,6 +50,8 @@ pub struct RoadRules {
     pub stop_line_m: Option<f64>,
     /// The vehicle ahead that leaves no room behind a crossing way, before which it waits at the line.
     pub keeps_clear_behind: Option<String>,
+    /// Where it drives across its route for now, in place of its goal: on the lane beside, to overtake, or at the edge \[m\].
+    pub drives_at_m: Option<f64>,
     /// What stands in its lane and is passed now; there is room.
     pub passes: Option<Obstacle>,
     /// The vehicle ahead behind which it stays, of a driver who sees the motion of the others only.

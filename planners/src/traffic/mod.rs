@@ -140,7 +140,7 @@ impl Traffic {
             let (keeps_rules, observes) = (*keeps_rules, self.road_users[vehicle].observes());
             let mut scene = if observes { self.scene(vehicle) } else { self.moment(vehicle) };
             if keeps_rules {
-                self.rule_book.hold_behind_obstacle(&mut scene);
+                self.rule_book.hold_behind_obstacle(&mut scene, self.road_users[vehicle].patience_s);
             }
             if observes && self.road_users[vehicle].decides {
                 scene.ego.rules.follows = scene.kept_behind();
@@ -261,13 +261,18 @@ impl Traffic {
     }
 
     fn moment_of(&self, vehicle: usize, others: &[usize]) -> Scene {
+        let RoadUser { agent, goal, .. } = &self.road_users[vehicle];
+        let (agent, mut goal) = (agent.clone(), *goal);
+        if let Some(across_m) = agent.rules.drives_at_m {
+            goal.target = agent.target_at(&goal.target, across_m);
+        }
         Scene {
             tick: self.tick,
             step_s: self.step_s,
             horizon: self.horizon,
             knowledge: Knowledge::Plans,
-            ego: self.road_users[vehicle].agent.clone(),
-            goal: self.road_users[vehicle].goal,
+            ego: agent,
+            goal,
             others: others.iter().map(|other| self.road_users[*other].agent.clone()).collect(),
         }
     }

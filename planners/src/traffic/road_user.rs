@@ -23,6 +23,8 @@ pub struct RoadUser {
     pub tells_plan: bool,
     /// How late it observes the motion of the others \[s\].
     pub reaction_s: f64,
+    /// How long it follows a slow vehicle before it overtakes on the other side, for 1/10 scale cars \[s\].
+    pub patience_s: f64,
     /// Whether it decides for itself where it drives: it does not follow a script, a record or inputs from outside.
     pub decides: bool,
     /// Whether it keeps all rules of the road, speed limits too, and drives no faster than it wants.
@@ -53,6 +55,7 @@ impl RoadUser {
             knows_plans: true,
             tells_plan: true,
             reaction_s: 0.0,
+            patience_s: 0.0,
             decides: true,
             keeps_rules: false,
             is_crashed: false,

@@ -82,6 +82,7 @@ fn road_user(scenario: &Scenario, vehicle: &Vehicle, state: State) -> RoadUser {
         knows_plans: vehicle.knows_plans(),
         tells_plan: vehicle.tells_plan(),
         reaction_s: vehicle.driver.reaction_s(),
+        patience_s: vehicle.driver.patience_s(),
         decides: vehicle.driver.is_vetoed(),
         keeps_rules: vehicle.keeps_rules(),
         presence: vehicle.stay.presence_at_start(),

@@ -14,6 +14,7 @@ pub(crate) use standing::swing_m;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use crate::rules::overtaking::Overtaking;
 use crate::rules::queue;
 use crate::scene::relation::is_standing;
 use crate::scene::road_rules::Obstacle;
@@ -67,6 +68,8 @@ pub(crate) struct ObstacleMemory {
     standing_since: BTreeMap<String, usize>,
     /// Who is being passed.
     passing: Option<Passing>,
+    /// Which slow vehicle it overtakes.
+    pub(super) overtaking: Overtaking,
 }
 
 impl ObstacleMemory {
@@ -77,10 +80,6 @@ impl ObstacleMemory {
 
     /// What to do about the nearest obstacle on the way; none without one. To be called once a tick.
     pub(crate) fn judge(&mut self, scene: &Scene) -> Option<Manoeuvre> {
-        // Straight roads have no lanes that belong to others.
-        if !scene.ego.route.is_in_network() {
-            return None;
-        }
         self.note(scene);
         let found = self.nearest(scene);
         let Some(obstacle) = found else {
@@ -133,7 +132,10 @@ impl ObstacleMemory {
         let reach_m = LOOK_AHEAD_S * ego.body.time_ratio() * wanted_mps.max(ego.state.speed_mps) + ego.body.front_m;
         let goal_m = ego.route.across(scene.goal.target.position());
         let here_m = ego.route.across(ego.state.position());
-        let candidates = scene.others.iter().filter(|other| is_standing(other) && !self.is_queueing(scene, other));
+        // Straight roads have no lanes that belong to others: of what stands there, only what has no driver is passed by these rules.
+        let counts = |other: &&Agent| other.is_obstacle || ego.route.is_in_network();
+        let standing = scene.others.iter().filter(counts).filter(|other| is_standing(other));
+        let candidates = standing.filter(|other| !self.is_queueing(scene, other));
         let obstacles = candidates.filter_map(|other| {
             let at = ego.route.locate(other.state.position(), None);
             let [half_length_m, half_width_m] = other.half_extents_m(at.heading_rad);

@@ -11,6 +11,9 @@ const SPARE_S: f64 = 0.8;
 const SPARE_UNDER_WAY_S: f64 = 0.0;
 /// Who has begun to pass and would have to brake harder than this to stop before the obstacle goes on \[m/s²\].
 const STOPPING_MPS2: f64 = 2.5;
+/// Time to the next vehicle in a lane into which a driver swings out, at the speed with which it closes up and, of the one behind, half
+/// its own, for 1/10 scale cars \[s\]: 1.6 s of a real one.
+const GAP_S: f64 = 0.5;
 /// A driver passes with this share of its strongest acceleration.
 const ACCELERATION_SHARE: f64 = 0.3;
 /// A driver who passes drives at most this share of the speed that it wants.
@@ -92,8 +95,26 @@ fn comes_into(scene: &Scene, other: &Agent, obstacle: &Obstacle, zone_m: [f64; 2
     let ends_m = [at.along_m, at.along_m + along_mps * until_s];
     let covered_m = [ends_m[0].min(ends_m[1]) - half_m, ends_m[0].max(ends_m[1]) + half_m];
     let own_m = ego.route.along(ego.state.position());
+    if !ego.route.is_in_network() && along_mps >= 0.0 {
+        return leaves_no_gap(scene, other, at.along_m, along_mps, zone_m[0]);
+    }
     // A vehicle behind in the own lane waits as well, and one that drives ahead in the same direction leaves.
     let is_behind = at.along_m < own_m && (at.across_m - ego.route.across(ego.state.position())).abs() < reach_m;
     let leaves = along_mps > ego.state.speed_mps && at.along_m > zone_m[1];
     covered_m[1] > zone_m[0] && covered_m[0] < zone_m[1] && !is_behind && !leaves
+}
+
+/// Whether a vehicle that drives in the same direction on the strip leaves the driver no gap when it swings out at `from_m`: from then on
+/// the one behind follows.
+fn leaves_no_gap(scene: &Scene, other: &Agent, along_m: f64, along_mps: f64, from_m: f64) -> bool {
+    let ego = &scene.ego;
+    let own_m = ego.route.along(ego.state.position());
+    let swung_s = time_s(scene, from_m + swing_m(scene, ego.state.speed_mps) - own_m);
+    let ahead_m = along_m + along_mps * swung_s - from_m - swing_m(scene, ego.state.speed_mps);
+    let gap_s = GAP_S * ego.body.time_ratio();
+    if ahead_m > 0.0 {
+        return ahead_m - other.body.rear_m - ego.body.front_m < gap_s * (ego.state.speed_mps - along_mps).max(0.0);
+    }
+    let closing_mps = (along_mps - ego.state.speed_mps).max(0.0);
+    -ahead_m - other.body.front_m - ego.body.rear_m < gap_s * (0.5 * along_mps + closing_mps)
 }
