@@ -142,7 +142,12 @@ impl Scene {
         let [half_length_m, half_width_m] = other.half_extents_m(other.route.heading_at(other.state.position()));
         let along_m = 0.5 * (ego.front_m + ego.rear_m) + half_length_m;
         let beside_m = 0.5 * ego.width_m + half_width_m + ASIDE_M * ego.scale;
-        self.around(other, containing(along_m, beside_m), penalty)
+        let passes = self.ego.rules.passes.as_ref().filter(|_| other.is_obstacle);
+        let room_m = passes.map_or(f64::INFINITY, |obstacle| {
+            (self.ego.route.across(other.state.position()) - obstacle.pass_at_m).abs()
+        });
+        let touching_m = 0.5 * ego.width_m + half_width_m;
+        self.around(other, containing(along_m, beside_m).fitting(along_m, touching_m, room_m), penalty)
     }
 
     /// The ellipse that a planner asks another vehicle to leave it: the safety ellipse, and before or behind one in another lane of which
@@ -211,6 +216,18 @@ pub(crate) fn containing(half_length_m: f64, half_width_m: f64) -> SafetyEllipse
     // The corner is on it: `(1/1.8)² + (w/b)² = 1`.
     let share = (1.0 - CONTAINING_RATIO.powi(-2)).sqrt();
     SafetyEllipse { along_m: CONTAINING_RATIO * half_length_m, across_m: half_width_m / share }
+}
+
+impl SafetyEllipse {
+    /// The ellipse, made narrower and longer where the way past it is nearer to its middle than its edge, as in a gap. It contains the
+    /// rectangle of the half lengths and half widths of both bodies, which touch at `touching_m` \[m\].
+    pub(crate) fn fitting(self, half_length_m: f64, touching_m: f64, room_m: f64) -> SafetyEllipse {
+        if room_m >= self.across_m || room_m <= touching_m {
+            return self;
+        }
+        let share = (1.0 - (touching_m / room_m).powi(2)).sqrt();
+        SafetyEllipse { along_m: half_length_m / share, across_m: room_m }
+    }
 }
 
 /// A safety ellipse around each centre, along a road.

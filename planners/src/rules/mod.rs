@@ -36,11 +36,11 @@ pub(crate) use obliged::Obliged;
 
 use std::collections::BTreeMap;
 
+use crate::Scene;
 use crate::rules::giving_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
 use crate::rules::obstacle::{Manoeuvre, ObstacleMemory};
 use crate::scene::relation::is_standing;
 pub use crate::scene::road_rules::{Obstacle, RoadRules, RuleKeeping};
-use crate::Scene;
 use waiting::Hold;
 
 /// What has to be remembered of the past to judge the present: which vehicle has arrived where, and when.
@@ -104,16 +104,17 @@ impl RuleBook {
     /// slow vehicle before it overtakes, for 1/10 scale cars \[s\]. To be called once a tick.
     pub(crate) fn hold_behind_obstacle(&mut self, scene: &mut Scene, patience_s: f64) {
         let evasion = wrong_way::evasion(scene);
-        if let Some(evasion) = evasion {
+        if let Some(evasion) = &evasion {
             scene.ego.rules.stop_before(evasion.line_m);
+            scene.ego.rules.evades = Some(evasion.name.clone());
             scene.drive_beside_goal(evasion.across_m);
         }
         let memory = self.obstacles.entry(scene.ego.name.clone()).or_default();
         if let Some(other_lane_m) = overtaking::other_lane_m(&scene.ego).filter(|_| scene.knowledge.is_of_motion()) {
-            let overtakes_at_m = memory.overtaking.judge(scene, patience_s, other_lane_m);
-            let overtakes_at_m = overtakes_at_m.filter(|_| evasion.is_none());
+            let overtakes_at_m = memory.overtaking.judge(scene, patience_s, other_lane_m).filter(|_| evasion.is_none());
             scene.ego.rules.stays_in_lane = overtakes_at_m.is_none() && lane::is_in_lane(&scene.ego);
-            if let Some(across_m) = overtakes_at_m {
+            let returns = evasion.is_none() && memory.passing().is_none() && !scene.ego.rules.stays_in_lane;
+            if let Some(across_m) = overtakes_at_m.or(returns.then_some(0.0)) {
                 scene.drive_beside_goal(across_m);
             }
         }

@@ -16,8 +16,9 @@ const FASTER_MPS: f64 = 0.95;
 const LONGEST_S: f64 = 2.53;
 /// Vehicles ahead are considered as far as the driver comes in this time at the speed that it wants, for 1/10 scale cars \[s\].
 const LOOK_AHEAD_S: f64 = 2.5;
-/// A driver changes to the other lane when the one ahead is this time away, and what it needs to swing out, for 1/10 scale cars \[s\].
-const BEGIN_S: f64 = 0.5;
+/// A driver changes to the other lane when the one ahead is this time of its speed away, and this time at which it closes up, for 1/10
+/// scale cars \[s\]: 2.2 and 2.5 s of real ones.
+const BEGIN_S: [f64; 2] = [0.7, 0.8];
 /// Time to spare before an oncoming vehicle arrives, for 1/10 scale cars \[s\]: 2.5 s of a real one.
 const SPARE_S: f64 = 0.8;
 /// A driver overtakes with this share of its strongest acceleration.
@@ -74,12 +75,13 @@ impl Overtaking {
         let has_waited = (scene.tick - since) as f64 * scene.step_s >= patience_s * ratio;
         let own_m = scene.ego.route.along(scene.ego.state.position());
         let is_beside = self.is_under_way && own_m + scene.ego.body.front_m > row.along_m[0];
-        self.is_under_way = is_beside || (self.is_under_way || has_waited && is_near(scene, &row)) && {
-            let way = way_past(scene, &row);
-            let longest_s = LONGEST_S * ratio + (row.along_m[1] - row.along_m[0]) / faster_mps(scene, &row);
-            let is_short = way.beside_s <= longest_s || self.is_under_way;
-            is_short && !is_forbidden(&scene.ego, own_m + way.length_m) && !is_met(scene, &row, way, other_lane_m)
-        };
+        self.is_under_way = is_beside
+            || (self.is_under_way || has_waited && is_near(scene, &row)) && {
+                let way = way_past(scene, &row);
+                let longest_s = LONGEST_S * ratio + (row.along_m[1] - row.along_m[0]) / faster_mps(scene, &row);
+                let is_short = way.beside_s <= longest_s || self.is_under_way;
+                is_short && !is_forbidden(&scene.ego, own_m + way.length_m) && !is_met(scene, &row, way, other_lane_m)
+            };
         self.is_under_way.then_some(other_lane_m)
     }
 }
@@ -135,8 +137,9 @@ fn row_ahead(scene: &Scene, is_under_way: bool) -> Option<Row<'_>> {
 fn is_near(scene: &Scene, row: &Row<'_>) -> bool {
     let ego = &scene.ego;
     let gap_m = row.along_m[0] - ego.route.along(ego.state.position()) - ego.body.front_m;
-    let speed_mps = ego.state.speed_mps;
-    gap_m <= swing_m(scene, speed_mps) + BEGIN_S * ego.body.time_ratio() * speed_mps
+    let [following_s, closing_s] = BEGIN_S.map(|time_s| time_s * ego.body.time_ratio());
+    let closing_mps = (ego.state.speed_mps - row.speed_mps).max(0.0);
+    gap_m <= ego.body.front_m + ego.body.rear_m + following_s * row.speed_mps + closing_s * closing_mps
 }
 
 /// The way past a row that keeps its speed, while the driver accelerates to the speed that it wants.

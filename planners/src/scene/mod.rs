@@ -51,14 +51,6 @@ pub struct Agent {
     pub urgency: f64,
 }
 
-impl Agent {
-    /// A target moved to a lateral coordinate of the route \[m\].
-    pub(crate) fn target_at(&self, target: &State, across_m: f64) -> State {
-        let [x_m, y_m] = self.route.position(self.route.along(target.position()), across_m);
-        State { x_m, y_m, ..*target }
-    }
-}
-
 /// The side on which a vehicle indicates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IndicatorSide {
@@ -100,7 +92,18 @@ pub struct Scene {
     pub others: Vec<Agent>,
 }
 
+/// A vehicle that leaves its lane, or goes back to it, weighs its place across the road this many times more.
+const SWIFT_RATIO: f64 = 4.0;
+
 impl Goal {
+    /// The goal, moved to a lateral coordinate of a route and reached in one motion \[m\].
+    pub(crate) fn moved_to(self, route: &Route, across_m: f64) -> Goal {
+        let [x_m, y_m] = route.position(route.along(self.target.position()), across_m);
+        let [along, across, heading, speed] = self.tracking;
+        let tracking = [along, SWIFT_RATIO * across, heading, speed];
+        Goal { target: State { x_m, y_m, ..self.target }, tracking, ..self }
+    }
+
     /// The axes along the target's heading, which is that of the road, and across it.
     pub fn axes(&self) -> Axes {
         Axes::along(self.target.heading_rad)
@@ -116,7 +119,7 @@ impl Scene {
     /// Lets the planning vehicle drive at a lateral coordinate of its route for now, in place of that of its goal \[m\].
     pub(crate) fn drive_beside_goal(&mut self, across_m: f64) {
         self.ego.rules.drives_at_m = Some(across_m);
-        self.goal.target = self.ego.target_at(&self.goal.target, across_m);
+        self.goal = self.goal.moved_to(&self.ego.route, across_m);
     }
 
     /// Beside each position of a motion, the axes along the ego's road and across it, and the goal's position; on a curved road,

@@ -24,6 +24,10 @@ pub struct Obstacle {
     pub across_m: f64,
     /// The lateral position at which it is passed \[m\].
     pub pass_at_m: f64,
+    /// Where the row ends that it begins and that is passed in one go, along the driver's route \[m\].
+    pub row_end_m: f64,
+    /// Whether it has no driver.
+    pub is_without_driver: bool,
     /// Half the lengths and half the widths of both, together \[m\].
     pub reach_m: [f64; 2],
 }
@@ -52,6 +56,8 @@ pub struct RoadRules {
     pub keeps_clear_behind: Option<String>,
     /// Where it drives across its route for now, in place of its goal: on the lane beside, to overtake, or at the edge \[m\].
     pub drives_at_m: Option<f64>,
+    /// The vehicle that comes head-on in its lane, before which it brakes at the edge.
+    pub evades: Option<String>,
     /// What stands in its lane and is passed now; there is room.
     pub passes: Option<Obstacle>,
     /// The vehicle ahead behind which it stays, of a driver who sees the motion of the others only.

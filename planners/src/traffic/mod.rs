@@ -264,7 +264,7 @@ impl Traffic {
         let RoadUser { agent, goal, .. } = &self.road_users[vehicle];
         let (agent, mut goal) = (agent.clone(), *goal);
         if let Some(across_m) = agent.rules.drives_at_m {
-            goal.target = agent.target_at(&goal.target, across_m);
+            goal = goal.moved_to(&agent.route, across_m);
         }
         Scene {
             tick: self.tick,

@@ -279,9 +279,11 @@ fn pose(scene: &Scene, expected: &[Agent], met: Option<&(Obstacle, bool)>, setti
 /// Whether a driver minds another vehicle who meets an obstacle, which it passes or not. Oncoming vehicles are checked before passing is
 /// allowed, and at every tick.
 fn is_minded(scene: &Scene, met: Option<&(Obstacle, bool)>, other: &Agent) -> bool {
-    met.is_none_or(|(obstacle, is_passed)| {
-        obstacle.name != other.name && !(*is_passed && scene.meets_in_its_lane(other))
-    })
+    // Before one that comes head-on, a line keeps the driver back; it does not pass it on its other side.
+    scene.ego.rules.evades.as_ref() != Some(&other.name)
+        && met.is_none_or(|(obstacle, is_passed)| {
+            obstacle.name != other.name && !(*is_passed && scene.meets_in_its_lane(other))
+        })
 }
 
 /// The starting guess of an optimisation: the last plan one step later, or before the first plan a little braking.

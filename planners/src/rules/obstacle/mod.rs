@@ -94,13 +94,16 @@ impl ObstacleMemory {
         let is_under_way = self.passing.as_ref().is_some_and(|passing| obstacle.along_m[0] < passing.until_m)
             || is_out && obstacle.is_beyond_braking(scene);
         let Some(obstacle) = obstacle.with_side(scene) else {
-            return Some(Manoeuvre::Wait(obstacle, None));
+            // A vehicle beside which there is no room is followed, however long it stands.
+            let is_followed = scene.knowledge.is_of_motion() && !obstacle.is_without_driver;
+            return (!is_followed).then_some(Manoeuvre::Wait(obstacle, None));
         };
         if !is_under_way && obstacle.is_too_near_to_swing_out(scene) {
             self.passing = None;
             return Some(Manoeuvre::Wait(obstacle, None));
         }
-        let until_m = room::end_of_row_m(scene, &obstacle);
+        let obstacle = room::with_row(scene, obstacle);
+        let until_m = obstacle.row_end_m;
         match room::in_the_way(scene, &obstacle, until_m, is_under_way) {
             None => {
                 self.passing = Some(Passing { name: obstacle.name.clone(), until_m });
@@ -153,7 +156,9 @@ impl ObstacleMemory {
                 along_m,
                 across_m: at.across_m,
                 pass_at_m: at.across_m,
+                row_end_m: along_m[1],
                 reach_m: reach,
+                is_without_driver: other.is_obstacle,
             };
             (is_ahead && (blocks(goal_m) || (blocks(here_m) && at.along_m > own_m))).then_some(found)
         });

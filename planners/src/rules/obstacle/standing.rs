@@ -139,13 +139,15 @@ impl Obstacle {
         let middle_m = 0.5 * (self.along_m[0] + self.along_m[1]);
         let centres = vec![route.position(middle_m, self.across_m); scene.horizon];
         let [length_m, width_m] = self.reach_m;
-        let ellipse = containing(length_m, width_m + KEPT_SIDE_SHARE * self.side_m(scene));
+        let room_m = (self.pass_at_m - self.across_m).abs();
+        let usual = containing(length_m, width_m + KEPT_SIDE_SHARE * self.side_m(scene));
+        let ellipse = usual.fitting(length_m, width_m, room_m);
         KeepOut { vehicle: 0, ellipses: ellipses(ellipse, route, &centres), centres, penalty: Penalty::EXACT }
     }
 
     /// The lateral position at which a driver is who passes it, at an arc length \[m\]; `own_m` is where it is otherwise.
     pub(crate) fn lateral_m(&self, along_m: f64, own_m: f64, swing_m: f64) -> f64 {
-        let [from_m, to_m] = [self.along_m[0] - swing_m, self.along_m[1] + self.reach_m[0]];
+        let [from_m, to_m] = [self.along_m[0] - swing_m, self.row_end_m + self.reach_m[0]];
         if (from_m..to_m).contains(&along_m) { self.pass_at_m } else { own_m }
     }
 }
