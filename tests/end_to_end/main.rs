@@ -5,7 +5,7 @@
 //! - many runs from one plan: [`sweeps`]; runs as tables: [`trajectories`]; runs as CommonRoad scenarios: [`exports`]
 //! - a user's files, terminal and server stay unharmed: [`unharmed`], [`faults`]
 //! - laws of every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`],
-//!   [`causality`], [`seen_streets`], [`next_street`]
+//!   [`causality`], [`seen_streets`], [`next_street`], [`every_street`]
 //! - changes of a scenario: [`counterfactuals`], [`mutation`]
 //! - extensions by users: [`own`]
 //! - plants with tyres, friction and lag: [`plants`]
@@ -32,6 +32,7 @@ mod counterfactuals;
 mod determinism;
 mod documents;
 mod drift;
+mod every_street;
 mod exports;
 mod failures;
 mod faults;

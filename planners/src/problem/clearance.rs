@@ -28,6 +28,8 @@ pub(super) const PLANNER_SHARE: f64 = 0.7;
 pub(super) const OPENING: f64 = 0.1;
 /// Length of the ellipse that contains two bodies, as a multiple of theirs.
 const CONTAINING_RATIO: f64 = 1.8;
+/// In a gap, a body is kept out of this share of the space between it and the other one.
+const FITTING_SHARE: f64 = 0.6;
 /// Bodies side by side keep this far apart, for 1/10 scale cars \[m\].
 pub(super) const ASIDE_M: f64 = 0.04;
 /// A vehicle beyond the line of its lane by less than this stays in it, for 1/10 scale cars \[m\].
@@ -222,11 +224,12 @@ impl SafetyEllipse {
     /// The ellipse, made narrower and longer where the way past it is nearer to its middle than its edge, as in a gap. It contains the
     /// rectangle of the half lengths and half widths of both bodies, which touch at `touching_m` \[m\].
     pub(crate) fn fitting(self, half_length_m: f64, touching_m: f64, room_m: f64) -> SafetyEllipse {
-        if room_m >= self.across_m || room_m <= touching_m {
+        let across_m = touching_m + FITTING_SHARE * (room_m - touching_m);
+        if across_m >= self.across_m || room_m <= touching_m {
             return self;
         }
-        let share = (1.0 - (touching_m / room_m).powi(2)).sqrt();
-        SafetyEllipse { along_m: half_length_m / share, across_m: room_m }
+        let share = (1.0 - (touching_m / across_m).powi(2)).sqrt();
+        SafetyEllipse { along_m: half_length_m / share, across_m }
     }
 }
 

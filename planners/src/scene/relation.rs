@@ -128,7 +128,7 @@ impl Agent {
 
 /// Whether a vehicle stands, or as good as stands.
 pub(crate) fn is_standing(agent: &Agent) -> bool {
-    agent.state.speed_mps < STANDING_MPS * agent.body.time_ratio()
+    agent.state.speed_mps.abs() < STANDING_MPS * agent.body.time_ratio()
 }
 
 /// The arc length of a vehicle's rear on its own route \[m\].

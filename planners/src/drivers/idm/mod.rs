@@ -81,6 +81,11 @@ impl DriverKind for Settings {
         PlanTime::SIMPLE
     }
 
+    /// The model changes lanes by its own rule, which knows no oncoming traffic.
+    fn patience_s(&self) -> f64 {
+        f64::INFINITY
+    }
+
     fn prediction(&self) -> Option<crate::prediction::Prediction> {
         Some(self.prediction)
     }

@@ -35,7 +35,8 @@ impl Motion<'_> {
     pub fn driven(&self) -> Trajectory {
         let (own, step_s) = (&self.scene.ego, self.scene.step_s);
         let swing_m = SWINGS * swing_m(self.scene, self.scene.ego.state.speed_mps);
-        let lane_m = self.lanes.centre_m(self.from_to[1]);
+        let edge_m = own.rules.drives_at_m.filter(|_| own.rules.evades.is_some());
+        let lane_m = edge_m.unwrap_or_else(|| self.lanes.centre_m(self.from_to[1]));
         let mut before = own.previous_input;
         roll_out(self.scene, |t, state| {
             // Straight roads have neither lines nor speed limits.
