@@ -224,10 +224,10 @@ impl SafetyEllipse {
     /// The ellipse, made narrower and longer where the way past it is nearer to its middle than its edge, as in a gap. It contains the
     /// rectangle of the half lengths and half widths of both bodies, which touch at `touching_m` \[m\].
     pub(crate) fn fitting(self, half_length_m: f64, touching_m: f64, room_m: f64) -> SafetyEllipse {
-        let across_m = touching_m + FITTING_SHARE * (room_m - touching_m);
-        if across_m >= self.across_m || room_m <= touching_m {
+        if room_m >= self.across_m || room_m <= touching_m {
             return self;
         }
+        let across_m = touching_m + FITTING_SHARE * (room_m - touching_m);
         let share = (1.0 - (touching_m / across_m).powi(2)).sqrt();
         SafetyEllipse { along_m: half_length_m / share, across_m }
     }

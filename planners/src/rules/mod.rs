@@ -10,7 +10,7 @@
 //! - until it has stood there once, if the sign says so,
 //! - while a vehicle that goes first comes so soon that it could not clear the conflict before,
 //! - while a vehicle that goes first has stopped there first, because it waits for a third one,
-//! - while there is no room behind a way that crosses its own,
+//! - while it could not leave a way that crosses its own, for want of room behind,
 //! - while a vehicle is in the conflict, or past the own line towards it,
 //! - where the first to arrive goes first, while a vehicle waits that came before.
 //!
@@ -39,6 +39,7 @@ use std::collections::BTreeMap;
 use crate::Scene;
 use crate::rules::giving_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
 use crate::rules::obstacle::{Manoeuvre, ObstacleMemory};
+use crate::rules::overtaking::Overtaking;
 use crate::scene::relation::is_standing;
 pub use crate::scene::road_rules::{Obstacle, RoadRules, RuleKeeping};
 use waiting::Hold;
@@ -49,6 +50,8 @@ pub struct RuleBook {
     arrivals: Arrivals,
     /// Of each who keeps the rules: what stands in its way.
     obstacles: BTreeMap<String, ObstacleMemory>,
+    /// Of each among people who keeps the rules: which slow vehicle it overtakes.
+    overtaking: BTreeMap<String, Overtaking>,
 }
 
 impl RuleBook {
@@ -111,7 +114,8 @@ impl RuleBook {
         }
         let memory = self.obstacles.entry(scene.ego.name.clone()).or_default();
         if let Some(other_lane_m) = overtaking::other_lane_m(&scene.ego).filter(|_| scene.knowledge.is_of_motion()) {
-            let overtakes_at_m = memory.overtaking.judge(scene, patience_s, other_lane_m).filter(|_| evasion.is_none());
+            let overtaking = self.overtaking.entry(scene.ego.name.clone()).or_default();
+            let overtakes_at_m = overtaking.judge(scene, patience_s, other_lane_m).filter(|_| evasion.is_none());
             scene.ego.rules.stays_in_lane = overtakes_at_m.is_none() && lane::is_in_lane(&scene.ego);
             let returns = evasion.is_none() && memory.passing().is_none() && !scene.ego.rules.stays_in_lane;
             if let Some(across_m) = overtakes_at_m.or(returns.then_some(0.0)) {

@@ -329,9 +329,6 @@ fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)]
     let beside = others.iter().filter(|(other, _)| Some(&other.name) != leader);
     let mut keep_outs: Vec<KeepOut> =
         beside.filter_map(|(_, expected)| scene.lane_change_keep_out(expected, weight)).collect();
-    if weight == 0.0 {
-        return keep_outs;
-    }
     let behind = |other: &&Agent| ego.shares_lane_with(other) && ego.lead_of(other) <= 0.0;
     let concerns = |other: &Agent| {
         !ego.is_waited_for_by(other)
@@ -340,7 +337,11 @@ fn yielded_to(scene: &Scene, leader: Option<&Agent>, others: &[(&Agent, &Agent)]
             && !behind(&other)
             && !is_beyond(other)
     };
-    for (other, expected) in others.iter().filter(|(other, _)| concerns(other)) {
+    // A driver who yields to none still runs into no obstacle, and among people into no oncoming vehicle.
+    let is_firm = |other: &Agent| {
+        weight > 0.0 || other.is_obstacle || scene.knowledge.is_of_motion() && scene.meets_in_its_lane(other)
+    };
+    for (other, expected) in others.iter().filter(|(other, _)| is_firm(other) && concerns(other)) {
         let predicted = settings.prediction.predict(expected, scene.horizon, scene.step_s);
         if other.is_obstacle {
             keep_outs.push(scene.beside(other, Penalty::EXACT));

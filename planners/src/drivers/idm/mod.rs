@@ -140,8 +140,9 @@ impl Drive for Idm {
         };
         let whole = self.settings.prediction.applied_to(&along_the_road(scene)).into_owned();
         let is_in_the_way = |other: &Agent| !other.is_obstacle || is_on_path(&whole, other);
-        let is_minded =
-            |other: &&Agent| is_in_the_way(other) && passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name);
+        let is_minded = |other: &&Agent| {
+            is_in_the_way(other) && passed.as_ref().is_none_or(|row| !row.is_passed_with(&scene.ego, other))
+        };
         let minded = with_others(&whole, is_minded);
         let lanes = RoadLanes::of_road(&minded, self.settings.mobil.lane_width_m);
         let now = self.lane(&minded, &lanes);

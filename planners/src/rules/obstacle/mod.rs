@@ -14,7 +14,6 @@ pub(crate) use standing::swing_m;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use crate::rules::overtaking::Overtaking;
 use crate::rules::queue;
 use crate::scene::relation::is_standing;
 use crate::scene::road_rules::Obstacle;
@@ -68,8 +67,6 @@ pub(crate) struct ObstacleMemory {
     standing_since: BTreeMap<String, usize>,
     /// Who is being passed.
     passing: Option<Passing>,
-    /// Which slow vehicle it overtakes.
-    pub(super) overtaking: Overtaking,
 }
 
 impl ObstacleMemory {
@@ -94,7 +91,7 @@ impl ObstacleMemory {
         let is_under_way = self.passing.as_ref().is_some_and(|passing| obstacle.along_m[0] < passing.until_m)
             || is_out && obstacle.is_beyond_braking(scene);
         let Some(obstacle) = obstacle.with_side(scene) else {
-            // A vehicle beside which there is no room is followed, however long it stands.
+            // A vehicle without room beside it is followed, however long it stands.
             let is_followed = scene.knowledge.is_of_motion() && !obstacle.is_without_driver;
             return (!is_followed).then_some(Manoeuvre::Wait(obstacle, None));
         };
