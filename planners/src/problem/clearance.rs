@@ -168,11 +168,14 @@ impl Scene {
     }
 
     /// Whether the safety ellipse around another vehicle concerns the planning vehicle; for a driver that knows comfort it does not once
-    /// their ways do not meet any more, nor where a line parts it from a vehicle that waits.
+    /// their ways do not meet any more, nor where a line parts it from a vehicle that waits, nor around one behind while it stays in its
+    /// lane: that one keeps its distance.
     pub(crate) fn minds(&self, other: &Agent) -> bool {
         let ego = &self.ego;
         let is_beside = || ego.is_waited_for_by(other) && self.is_parted_by_lane_line(other);
-        ego.limits.comfort.is_none() || ego.may_meet(other) && !is_beside()
+        let stays = self.knowledge.is_of_motion() && ego.rules.stays_in_lane;
+        let is_behind = || stays && ego.shares_lane_with(other) && ego.lead_of(other) < 0.0;
+        ego.limits.comfort.is_none() || ego.may_meet(other) && !is_beside() && !is_behind()
     }
 
     /// The safety ellipses around a prediction of another vehicle for a planner: longer by a time gap for one on the same road if the
@@ -238,5 +241,27 @@ pub(crate) fn ellipses(safety: SafetyEllipse, route: &Route, centres: &[[f64; 2]
     match route.straight() {
         Some(corridor) => vec![safety.oriented(corridor.heading_rad); centres.len()],
         None => route.locate_all(centres).map(|at| safety.oriented(at.heading_rad)).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{real_car, scene};
+    use crate::scene::Knowledge;
+    use crate::vehicle::ComfortLimits;
+
+    #[test]
+    fn people_who_stay_in_their_lane_do_not_avoid_vehicles_behind() {
+        let mut ego = real_car(0.0, 2.0);
+        ego.limits.comfort = Some(ComfortLimits::default());
+        let minds = |x_m: f64, stays_in_lane: bool, knowledge: Knowledge| {
+            let mut ego = ego.clone();
+            ego.rules.stays_in_lane = stays_in_lane;
+            Scene { knowledge, ..scene(ego, Vec::new()) }.minds(&real_car(x_m, 1.0))
+        };
+        let motion = Knowledge::Motion { late_steps: 0 };
+        assert!(!minds(-8.0, true, motion));
+        assert!(minds(-8.0, false, motion) && minds(8.0, true, motion) && minds(-8.0, true, Knowledge::Plans));
     }
 }

@@ -46,6 +46,7 @@ pub use presence::{Presence, Stay};
 pub use road_user::RoadUser;
 
 use crate::prediction::without_plan;
+use crate::rules::giving_way::stopping_distance_m;
 use crate::rules::{Obliged, RoadRules, RuleBook, beside_no_network};
 use crate::scene::Knowledge;
 use crate::trajectory::Statistics;
@@ -141,6 +142,10 @@ impl Traffic {
             let mut scene = if observes { self.scene(vehicle) } else { self.moment(vehicle) };
             if keeps_rules {
                 self.rule_book.hold_behind_obstacle(&mut scene, self.road_users[vehicle].patience_s);
+            }
+            if keeps_rules && self.road_users[vehicle].stay.stops_at_end {
+                let before_m = stopping_distance_m(&scene.ego);
+                scene.ego.rules.stop_before(scene.ego.route.end_m() - before_m);
             }
             if observes && self.road_users[vehicle].decides {
                 scene.ego.rules.follows = scene.kept_behind();

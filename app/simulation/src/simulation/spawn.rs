@@ -63,7 +63,7 @@ fn road_user(scenario: &Scenario, vehicle: &Vehicle, state: State) -> RoadUser {
         comfort: vehicle.weights.comfort(),
         safety: vehicle.safety,
     };
-    let agent = Agent {
+    let mut agent = Agent {
         name: vehicle.name.clone(),
         state,
         previous_input: Input { acceleration_mps2: vehicle.start_acceleration_mps2, steering_rad: 0.0 },
@@ -78,6 +78,10 @@ fn road_user(scenario: &Scenario, vehicle: &Vehicle, state: State) -> RoadUser {
         rules: RoadRules::default(),
         urgency: 1.0,
     };
+    // Wheels that take time to turn are turned along the road at the start.
+    if agent.limits.steering_rate_max_radps.is_some() {
+        agent.previous_input.steering_rad = agent.steering_along_road_rad();
+    }
     RoadUser {
         knows_plans: vehicle.knows_plans(),
         tells_plan: vehicle.tells_plan(),
