@@ -16,9 +16,7 @@ const UNEXPLAINED_S: f64 = 5.0;
 
 /// The streets that are wrong today: kind, and why.
 const KNOWN_FAILURES: &[(&str, &str)] = &[
-    ("rows", "an IDM driver stands between two rows of parked cars"),
     ("cut-in", "a swerve leads a corner 0.11 m off the road"),
-    ("keep-clear", "a corner is 0.14 m off the road in the junction"),
 ];
 
 /// All that is wrong with a run, of which the ego is judged.
