@@ -26,6 +26,7 @@ mod agent_interface;
 mod batch;
 mod copies;
 mod episode;
+mod network;
 mod observation;
 mod reward;
 mod start;
@@ -39,6 +40,7 @@ pub use agent_interface::{AgentInterface, Policy, PolicyDriver, PolicyError};
 pub use batch::{Autoreset, BatchSteps, EnvironmentBatch};
 pub use copies::{EpisodeStart, SavedEpisode};
 pub use episode::{Ending, Episode};
+pub use network::{NetworkPolicy, RegisterPolicies};
 pub use observation::{
     AgentView, BeliefView, ForeignView, Kinematics, LaneView, ObservationKind, ObservationSpace, OccupancyGrid,
     PlanView,
