@@ -2,71 +2,31 @@
 
 from __future__ import annotations
 
+import copy as _copy
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import gymnasium
 import numpy as np
-from gymnasium import spaces
 from numpy.typing import NDArray
 
 from . import _native
 from ._library import Changes, Report, ScenarioLike, load, records
-from ._spaces import environment_settings, flat_action, own_seed, shaped_observation
+from ._spaces import environment_settings, flat_action, needs, own_seed
 
-#: Pictures that are not as high get a margin below, so that all of an episode have one size [px].
-PICTURE_PX = (544, 720)
-PICTURES_PER_S = 10
+needs("gymnasium", "rl")
 
+import gymnasium
+from gymnasium import spaces
 
-class Views:
-    """What the environments of one and of many agents have in common: the spaces of a native environment."""
+from ._views import PICTURE_PX, PICTURES_PER_S, EnvSnapshot, Views, copied, info_of, of_size, without_window
 
-    def __init__(self, native: Any, observation: Any) -> None:
-        described = native.observation_spaces()
-        self.is_single = isinstance(observation, (str, Mapping))
-        self.shapes: list[tuple[str, tuple[int, ...]]] = [(kind, tuple(shape)) for kind, shape, *_ in described]
-        #: What the entries of the last axis are, by view.
-        self.names: dict[str, list[str]] = {kind: names for kind, _, names, *_ in described}
-        boxes: dict[str, spaces.Space[Any]] = {
-            kind: spaces.Box(low, high, tuple(shape), np.float32) for kind, shape, _, low, high in described
-        }
-        if len(boxes) < len(described):
-            raise ValueError("`observation` names a view twice")
-        self.observation_space: spaces.Space[Any] = boxes[described[0][0]] if self.is_single else spaces.Dict(boxes)
-        rows, count = native.action_space()
-        self.action_space: spaces.Space[Any]
-        if count is not None:
-            self.action_space = spaces.Discrete(count)
-        else:
-            self.action_space = spaces.Box(-1.0, 1.0, (2,) if rows == 1 else (rows, 2), np.float32)
+#: Where the settings of HighwayEnv are listed beside those of Interplay.
+MIGRATION_PAGE = "docs/guide/python.md"
 
-    def observed(self, numbers: NDArray[np.float32]) -> Any:
-        """Numbers in the shapes of the views."""
-        return shaped_observation(numbers, self.shapes, self.is_single)
-
-    def acted(self, action: Any) -> NDArray[np.float32]:
-        """The numbers of one action; what is none is a ValueError."""
-        numbers = np.asarray(action)
-        if numbers.dtype.kind not in "fiub":
-            raise ValueError(f"an action is numbers, and not {action!r}")
-        if numbers.shape != self.action_space.shape:
-            raise ValueError(f"an action has the shape {self.action_space.shape}, and not {numbers.shape}")
-        return flat_action(numbers)
-
-    def planned(self, numbers: NDArray[np.float32]) -> Any:
-        """Numbers as an action."""
-        if isinstance(self.action_space, spaces.Discrete):
-            return np.int64(numbers[0])
-        return numbers.reshape(self.action_space.shape or (2,))
-
-
-def info_of(native: _native.Environment, agent: int, ending: str | None) -> dict[str, Any]:
-    """What an environment says of an agent beside what it sees: the terms of the reward, and how its episode ended, if it did."""
-    info: dict[str, Any] = {"time_s": native.time_s, "reward_terms": native.terms(agent)}
-    if (mask := native.action_mask(agent)) is not None:
-        info["action_mask"] = np.array(mask, dtype=np.int8)
-    return info if ending is None else {**info, "ending": ending, "is_success": ending == "goal"}
+def refuse_config(config: Any) -> None:
+    """Says what replaces the ``config`` of HighwayEnv."""
+    if config is not None:
+        raise TypeError(f"`config` is HighwayEnv's: pass its settings as arguments (`observation=`, `action=`, `reward=`); see {MIGRATION_PAGE}")
 
 
 class InterplayEnv(gymnasium.Env[Any, Any]):
@@ -83,6 +43,8 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
     :param decision_s: time from one decision to the next; by default each plan is a decision, and a meta-action is kept for half a
         second of a real car.
     :param set: changes of the scenario by path.
+    :param streets: draws a street of the generator for each episode instead of the scenario's: a dictionary with ``kinds`` and
+        ``density``, which may be empty; see :func:`interplay.streets.street_env`.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array"], "render_fps": PICTURES_PER_S}
@@ -98,14 +60,17 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         perturb: bool | Mapping[str, Any] = True,
         decision_s: float | None = None,
         set: Changes = None,
+        streets: Mapping[str, Any] | None = None,
         render_mode: str | None = None,
+        config: Any = None,
     ) -> None:
+        refuse_config(config)
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
             raise ValueError(f"render_mode {render_mode!r}; choose from {', '.join(self.metadata['render_modes'])}")
         self.render_mode = render_mode
         self._observation = observation
         agents = None if agent is None else [agent]
-        self._settings = environment_settings(observation, action, reward, agents, perturb, decision_s)
+        self._settings = environment_settings(observation, action, reward, agents, perturb, decision_s, streets)
         self._set = set
         self._play(load(scenario, set=set))
         self.observation_space, self.action_space = self._views.observation_space, self._views.action_space
@@ -153,9 +118,17 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         self._is_seeded = True
         if self.render_mode == "human":
             self.render()
-        return self._views.observed(self._native.observe(0)), info_of(self._native, 0, None)
+        info = info_of(self._native, 0, None)
+        return self._views.observed(self._native.observe(0)), info if self.street is None else {**info, "street": self.street}
+
+    @property
+    def street(self) -> str | None:
+        """The name of the street of the episode, where streets are drawn."""
+        return self._native.street
 
     def _change_scenario(self, scenario: ScenarioLike) -> None:
+        if self.street is not None:
+            raise ValueError("each episode draws its street: choose `kinds`, and not a scenario")
         changed = load(scenario, set=self._set if not isinstance(scenario, _native.Scenario) else None)
         native = _native.Environment(changed, self._settings)
         views = Views(native, self._observation)
@@ -189,7 +162,7 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
     def report(self) -> Report | None:
         """Ends the episode and says what was measured in it; none before the first."""
         text = self._native.finish()
-        return None if text is None else Report({**records(text), "scenario": self.scenario.name})
+        return None if text is None else Report({**records(text), "scenario": self.street or self.scenario.name})
 
     def render(self) -> Any:
         """The world from above: an array of 544 × 720 pixels, or a window."""
@@ -199,7 +172,7 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         picture = self._native.picture()
         if picture is None:
             raise _native.RunError("call reset before render")
-        picture = _of_size(picture, PICTURE_PX)
+        picture = of_size(picture, PICTURE_PX)
         if self.render_mode == "rgb_array":
             return picture
         self._show(picture)
@@ -226,26 +199,23 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
             pygame.display.quit()
             self._window = None
 
+    def snapshot(self) -> EnvSnapshot:
+        """A copy of all state, for :meth:`restore`; it costs about as much as a step."""
+        return EnvSnapshot(_copy.deepcopy(self._native), self.scenario, self._is_seeded, _copy.deepcopy(self._np_random))
+
+    def restore(self, snapshot: EnvSnapshot) -> None:
+        """Goes back, or forth, to a snapshot of this environment or of one with the same spaces."""
+        native = copied(snapshot, [self.agent])
+        views = Views(native, self._observation)
+        if (views.observation_space, views.action_space) != (self.observation_space, self.action_space):
+            raise ValueError("the snapshot is of an environment with other spaces")
+        self._native, self._views = native, views
+        self.scenario, self._is_seeded = snapshot.scenario, snapshot.is_seeded
+        self._np_random = _copy.deepcopy(snapshot.random)
+
     def __getstate__(self) -> dict[str, Any]:
-        kept = ("render_mode", "_observation", "_settings", "_set", "_np_random", "_np_random_seed", "spec")
-        state = {name: self.__dict__[name] for name in kept if name in self.__dict__}
-        return {**state, "scenario": self.scenario}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        """A copy before its first episode."""
-        self.__dict__.update(state)
-        self._play(state["scenario"])
-        self.observation_space, self.action_space = self._views.observation_space, self._views.action_space
-        self._window = None
-
-
-def _of_size(picture: NDArray[np.uint8], size: tuple[int, int]) -> NDArray[np.uint8]:
-    """A picture in the middle of another size: cut off, or with a margin in the colour of its last corner."""
-    fitted = np.empty((*size, 3), dtype=np.uint8)
-    fitted[:] = picture[-1, -1]
-    high, wide = min(size[0], picture.shape[0]), min(size[1], picture.shape[1])
-    fitted[:high, :wide] = picture[:high, :wide]
-    return fitted
+        """All state but a window: a copy goes on where the original is."""
+        return without_window(self.__dict__)
 
 
 class InterplayVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
@@ -272,17 +242,20 @@ class InterplayVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         perturb: bool | Mapping[str, Any] = True,
         decision_s: float | None = None,
         set: Changes = None,
+        streets: Mapping[str, Any] | None = None,
         autoreset_mode: gymnasium.vector.AutoresetMode | str = gymnasium.vector.AutoresetMode.NEXT_STEP,
         copy: bool = True,
         render_mode: str | None = None,
+        config: Any = None,
     ) -> None:
+        refuse_config(config)
         if num_envs < 1:
             raise ValueError("num_envs is at least 1")
         mode = gymnasium.vector.AutoresetMode(autoreset_mode)
         names = {"NEXT_STEP": "next_step", "SAME_STEP": "same_step", "DISABLED": "disabled"}
         self.num_envs, self._mode, self._copy, self.render_mode = num_envs, mode, copy, render_mode
         self.metadata = {**self.metadata, "autoreset_mode": mode}
-        settings = environment_settings(observation, action, reward, None if agent is None else [agent], perturb, decision_s)
+        settings = environment_settings(observation, action, reward, None if agent is None else [agent], perturb, decision_s, streets)
         several = isinstance(scenario, Sequence) and not isinstance(scenario, str)
         listed: list[Any] = list(scenario) if several else [scenario] * num_envs  # type: ignore[arg-type]
         if len(listed) != num_envs:
