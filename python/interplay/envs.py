@@ -10,23 +10,68 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._copies import EnvSnapshot, copied, without_window
 from ._library import Changes, Report, ScenarioLike, load, records
-from ._spaces import environment_settings, flat_action, needs, own_seed
+from ._spaces import environment_settings, flat_action, needs, own_seed, shaped_observation
 
 needs("gymnasium", "rl")
 
 import gymnasium
 from gymnasium import spaces
 
-from ._views import PICTURE_PX, PICTURES_PER_S, EnvSnapshot, Views, copied, info_of, of_size, without_window
+#: Pictures that are not as high get a margin below, so that all of an episode have one size [px].
+PICTURE_PX = (544, 720)
+PICTURES_PER_S = 10
 
-#: Where the settings of HighwayEnv are listed beside those of Interplay.
-MIGRATION_PAGE = "docs/guide/python.md"
 
-def refuse_config(config: Any) -> None:
-    """Says what replaces the ``config`` of HighwayEnv."""
-    if config is not None:
-        raise TypeError(f"`config` is HighwayEnv's: pass its settings as arguments (`observation=`, `action=`, `reward=`); see {MIGRATION_PAGE}")
+class Views:
+    """What the environments of one and of many agents have in common: the spaces of a native environment."""
+
+    def __init__(self, native: Any, observation: Any) -> None:
+        described = native.observation_spaces()
+        self.is_single = isinstance(observation, (str, Mapping))
+        self.shapes: list[tuple[str, tuple[int, ...]]] = [(kind, tuple(shape)) for kind, shape, *_ in described]
+        #: What the entries of the last axis are, by view.
+        self.names: dict[str, list[str]] = {kind: names for kind, _, names, *_ in described}
+        boxes: dict[str, spaces.Space[Any]] = {
+            kind: spaces.Box(low, high, tuple(shape), np.float32) for kind, shape, _, low, high in described
+        }
+        if len(boxes) < len(described):
+            raise ValueError("`observation` names a view twice")
+        self.observation_space: spaces.Space[Any] = boxes[described[0][0]] if self.is_single else spaces.Dict(boxes)
+        rows, count = native.action_space()
+        self.action_space: spaces.Space[Any]
+        if count is not None:
+            self.action_space = spaces.Discrete(count)
+        else:
+            self.action_space = spaces.Box(-1.0, 1.0, (2,) if rows == 1 else (rows, 2), np.float32)
+
+    def observed(self, numbers: NDArray[np.float32]) -> Any:
+        """Numbers in the shapes of the views."""
+        return shaped_observation(numbers, self.shapes, self.is_single)
+
+    def acted(self, action: Any) -> NDArray[np.float32]:
+        """The numbers of one action; what is none is a ValueError."""
+        numbers = np.asarray(action)
+        if numbers.dtype.kind not in "fiub":
+            raise ValueError(f"an action is numbers, and not {action!r}")
+        if numbers.shape != self.action_space.shape:
+            raise ValueError(f"an action has the shape {self.action_space.shape}, and not {numbers.shape}")
+        return flat_action(numbers)
+
+    def planned(self, numbers: NDArray[np.float32]) -> Any:
+        """Numbers as an action."""
+        if isinstance(self.action_space, spaces.Discrete):
+            return np.int64(numbers[0])
+        return numbers.reshape(self.action_space.shape or (2,))
+
+
+def info_of(native: _native.Environment, agent: int, ending: str | None) -> dict[str, Any]:
+    """What an environment says of an agent beside what it sees: the terms of the reward, and how its episode ended, if it did."""
+    info: dict[str, Any] = {"time_s": native.time_s, "reward_terms": native.terms(agent)}
+    if (mask := native.action_mask(agent)) is not None:
+        info["action_mask"] = np.array(mask, dtype=np.int8)
+    return info if ending is None else {**info, "ending": ending, "is_success": ending == "goal"}
 
 
 class InterplayEnv(gymnasium.Env[Any, Any]):
@@ -62,9 +107,7 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         set: Changes = None,
         streets: Mapping[str, Any] | None = None,
         render_mode: str | None = None,
-        config: Any = None,
     ) -> None:
-        refuse_config(config)
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
             raise ValueError(f"render_mode {render_mode!r}; choose from {', '.join(self.metadata['render_modes'])}")
         self.render_mode = render_mode
@@ -172,7 +215,7 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         picture = self._native.picture()
         if picture is None:
             raise _native.RunError("call reset before render")
-        picture = of_size(picture, PICTURE_PX)
+        picture = _of_size(picture, PICTURE_PX)
         if self.render_mode == "rgb_array":
             return picture
         self._show(picture)
@@ -218,6 +261,15 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         return without_window(self.__dict__)
 
 
+def _of_size(picture: NDArray[np.uint8], size: tuple[int, int]) -> NDArray[np.uint8]:
+    """A picture in the middle of another size: cut off, or with a margin in the colour of its last corner."""
+    fitted = np.empty((*size, 3), dtype=np.uint8)
+    fitted[:] = picture[-1, -1]
+    high, wide = min(size[0], picture.shape[0]), min(size[1], picture.shape[1])
+    fitted[:high, :wide] = picture[:high, :wide]
+    return fitted
+
+
 class InterplayVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
     """Many worlds that are stepped in one call, on all cores: same seeds and actions, same numbers as each world alone.
 
@@ -246,9 +298,7 @@ class InterplayVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         autoreset_mode: gymnasium.vector.AutoresetMode | str = gymnasium.vector.AutoresetMode.NEXT_STEP,
         copy: bool = True,
         render_mode: str | None = None,
-        config: Any = None,
     ) -> None:
-        refuse_config(config)
         if num_envs < 1:
             raise ValueError("num_envs is at least 1")
         mode = gymnasium.vector.AutoresetMode(autoreset_mode)

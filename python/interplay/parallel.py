@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._copies import EnvSnapshot, copied
 from ._library import Changes, ScenarioLike, load
 from ._spaces import environment_settings, needs, own_seed
 
@@ -18,7 +19,7 @@ needs("pettingzoo", "rl")
 
 from pettingzoo import ParallelEnv
 
-from ._views import PICTURE_PX, PICTURES_PER_S, EnvSnapshot, Views, copied, info_of, of_size
+from .envs import PICTURE_PX, PICTURES_PER_S, Views, _of_size, info_of
 
 
 class InterplayParallelEnv(ParallelEnv):
@@ -121,7 +122,7 @@ class InterplayParallelEnv(ParallelEnv):
     def render(self) -> Any:
         """The world from above, an array of 544 × 720 pixels."""
         picture = self._native.picture()
-        return None if picture is None else of_size(picture, PICTURE_PX)
+        return None if picture is None else _of_size(picture, PICTURE_PX)
 
     def snapshot(self) -> EnvSnapshot:
         """A copy of all state, for :meth:`restore`; it costs about as much as a step."""

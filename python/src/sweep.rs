@@ -36,7 +36,7 @@ pub fn sweep(
             let table: toml::Table =
                 serde_json::from_str(json).map_err(|error| PyValueError::new_err(error.to_string()))?;
             let text = toml::to_string(&table).map_err(|error| PyValueError::new_err(error.to_string()))?;
-            py.detach(|| registry.sweep_plan_from_text(source, &text, std::path::Path::new(""))).map_err(refused)?
+            py.detach(|| registry.sweep_plan_from_text(source, &text, Path::new(""))).map_err(refused)?
         }
     };
     let jobs = jobs.unwrap_or(0);
