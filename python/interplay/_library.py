@@ -299,15 +299,18 @@ def _run(
     outputs: dict[str, str],
     is_cancelled: Callable[[], bool] | None,
 ) -> Report:
-    from ._policies import Driver
+    from ._policies import resolved
 
-    with Driver(planner) as driver:
-        if driver.settings is not None:
-            set = [*changes(set), f"vehicle.ego.driver={toml_value(driver.settings)}"]
-        loaded = load(scenario, set=set, seed=seed, planner=driver.kind)
-        driver.seeded(loaded.seed)
+    kind, settings, function = resolved(planner)
+    if settings is not None:
+        set = [*changes(set), f"vehicle.ego.driver={toml_value(settings)}"]
+    loaded = load(scenario, set=set, seed=seed, planner=kind)
+    if function is None:
+        return Report.of(_native.run(loaded, record, outputs, is_cancelled))
+    function.function.seed = loaded.seed
+    with function:
         recorded = _native.run(loaded, record, outputs, is_cancelled)
-        driver.raise_failure()
+        function.raise_failure()
     return Report.of(recorded)
 
 

@@ -126,46 +126,21 @@ class Registered:
             raise self._failure
 
 
-class Driver:
-    """The driver of the ego in one run: the kind of a driver, or its settings; functions are registered while the context lasts."""
-
-    def __init__(self, planner: Planner) -> None:
-        self.kind: str | None = None
-        self.settings: dict[str, Any] | None = None
-        self._registered: Registered | None = None
-        if isinstance(planner, PlannerPolicy):
-            self.settings = {"kind": planner.kind, **planner.settings}
-        elif isinstance(planner, os.PathLike) or (isinstance(planner, str) and planner.endswith(".safetensors")):
-            self.settings = {"kind": "policy", "file": os.path.abspath(planner)}
-        elif planner is None or isinstance(planner, str):
-            self.kind = planner
-        elif isinstance(planner, Mapping) and len(planner) == 1:
-            [(name, function)] = planner.items()
-            self._registered = Registered(name, copy.copy(as_function(function)))
-            self.settings = self._registered.settings
-        else:
-            raise TypeError(
-                "`planner` is the kind of a driver, `interplay.policy(…)`, the path of a network, or one function by name: {'mine': function}"
-            )
-
-    def seeded(self, seed: int) -> None:
-        """Sets the seed of sampled actions."""
-        if self._registered is not None:
-            self._registered.function.seed = seed
-
-    def __enter__(self) -> Driver:
-        if self._registered is not None:
-            self._registered.__enter__()
-        return self
-
-    def __exit__(self, *_: Any) -> None:
-        if self._registered is not None:
-            self._registered.__exit__()
-
-    def raise_failure(self) -> None:
-        """Raises the first error of the function, if there was one."""
-        if self._registered is not None:
-            self._registered.raise_failure()
+def resolved(planner: Planner) -> tuple[str | None, dict[str, Any] | None, Registered | None]:
+    """The driver of the ego in one run: its kind, or its settings, and the function that they call."""
+    if isinstance(planner, PlannerPolicy):
+        return None, {"kind": planner.kind, **planner.settings}, None
+    if isinstance(planner, os.PathLike) or (isinstance(planner, str) and planner.endswith(".safetensors")):
+        return None, {"kind": "policy", "file": os.path.abspath(planner)}, None
+    if planner is None or isinstance(planner, str):
+        return planner, None, None
+    if not isinstance(planner, Mapping) or len(planner) != 1:
+        raise TypeError(
+            "`planner` is the kind of a driver, `interplay.policy(…)`, the path of a network, or one function by name: {'mine': function}"
+        )
+    [(name, function)] = planner.items()
+    registered = Registered(name, copy.copy(as_function(function)))
+    return None, registered.settings, registered
 
 
 def _version(function: Any) -> str:
