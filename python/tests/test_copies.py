@@ -100,7 +100,8 @@ def test_reports_are_pickled_with_their_ticks() -> None:
 
 
 def test_many_runs_have_the_reports_of_single_ones() -> None:
-    scenarios, planners, seeds = ["lane-change/front-nice", "intersection/nice"], ["idm", interplay.policy("conservative")], [1, 2]
+    scenarios, seeds = ["lane-change/front-nice", "intersection/nice"], [1, 2]
+    planners: list[Any] = ["idm", interplay.policy("conservative")]
     expected = [interplay.run(s, p, seed=n).digest for s in scenarios for p in planners for n in seeds]
     for jobs in (1, 3):
         assert [report.digest for report in interplay.run_many(scenarios, planners, seeds, jobs)] == expected
