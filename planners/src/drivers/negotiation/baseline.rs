@@ -241,7 +241,8 @@ mod tests {
 
     /// The readings at the end of 100 talks in which something is asked of the partner.
     fn last_readings(answer: Answer) -> Vec<f64> {
-        let read: Vec<f64> = (0..1000).filter_map(|number| readings(answer, &Draw::of(number)).pop()).take(100).collect();
+        let read: Vec<f64> =
+            (0..1000).filter_map(|number| readings(answer, &Draw::of(number)).pop()).take(100).collect();
         assert_eq!(read.len(), 100);
         read
     }
