@@ -31,8 +31,9 @@ def identifier(family: str) -> str:
 
 def register() -> None:
     """Registers all environments; those that are there stay as they are."""
-    entries = {identifier(family): {"scenario": scenario} for family, scenario in families().items()}
+    entries: dict[str, dict[str, str]] = {identifier(family): {"scenario": scenario} for family, scenario in families().items()}
     entries["interplay/Scenario-v0"] = {}
+    entries.update({name.replace("-v0", "-Discrete-v0"): {**settings, "action": "DiscreteMeta"} for name, settings in entries.items()})
     for name, settings in entries.items():
         if name not in gymnasium.registry:
             gymnasium.register(
@@ -40,6 +41,14 @@ def register() -> None:
                 entry_point="interplay.envs:InterplayEnv",
                 vector_entry_point="interplay.envs:InterplayVectorEnv",
                 kwargs=settings,
+            )
+    for name, chosen in {"interplay/Street-v0": {}, "interplay/Street-Discrete-v0": {"action": "DiscreteMeta"}}.items():
+        if name not in gymnasium.registry:
+            gymnasium.register(
+                id=name,
+                entry_point="interplay.streets:street_env",
+                vector_entry_point="interplay.streets:street_vector_env",
+                kwargs=chosen,
             )
     if "interplay/Building-v0" not in gymnasium.registry:
         gymnasium.register(id="interplay/Building-v0", entry_point="interplay.building:BuildingEnv")

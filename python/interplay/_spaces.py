@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -13,6 +14,16 @@ from numpy.typing import NDArray
 OBSERVATIONS = ("Kinematics", "Lane", "OccupancyGrid", "Plan", "Belief")
 #: What an agent decides.
 ACTIONS = ("Continuous", "DiscreteMeta", "Plan")
+
+
+def needs(module: str, extra: str) -> Any:
+    """A module that an extra of the package installs."""
+    try:
+        return importlib.import_module(module)
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.split(".")[0] != module.split(".")[0]:
+            raise
+        raise ModuleNotFoundError(f"{module} is not installed: pip install 'interplay[{extra}]'", name=module) from None
 
 
 def observation_settings(observation: Any) -> list[dict[str, Any]]:
@@ -35,6 +46,7 @@ def environment_settings(
     agents: Sequence[str] | None,
     perturb: bool | Mapping[str, Any],
     decision_s: float | None,
+    streets: Mapping[str, Any] | None = None,
 ) -> str:
     """The settings of an environment as JSON."""
     kind = action.get("type", action.get("kind")) if isinstance(action, Mapping) else action
@@ -52,6 +64,8 @@ def environment_settings(
         "decision_s": decision_s,
         "agents": [agents] if isinstance(agents, str) else list(agents or []),
     }
+    if streets is not None:
+        settings["streets"] = dict(streets)
     if reward is not None:
         settings["reward"] = dict(reward)
     return json.dumps(settings)
@@ -71,7 +85,7 @@ def own_seed(seed: Any) -> int:
     """A seed of a scenario."""
     number = int(seed)
     if not 0 <= number < 2**64:
-        raise ValueError(f"a seed is at least 0 and below 2^64, and not {seed}")
+        raise ValueError(f"a seed is from 0 to 2^64 - 1, and not {seed}")
     return number
 
 

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import copy as _copy
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import gymnasium
 import numpy as np
-from gymnasium import spaces
 from numpy.typing import NDArray
 
 from . import _native
+from ._copies import EnvSnapshot, copied, without_window
 from ._library import Changes, Report, ScenarioLike, load, records
-from ._spaces import environment_settings, flat_action, own_seed, shaped_observation
+from ._spaces import environment_settings, flat_action, needs, own_seed, shaped_observation
+
+needs("gymnasium", "rl")
+
+import gymnasium
+from gymnasium import spaces
 
 #: Pictures that are not as high get a margin below, so that all of an episode have one size [px].
 PICTURE_PX = (544, 720)
@@ -83,6 +88,8 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
     :param decision_s: time from one decision to the next; by default each plan is a decision, and a meta-action is kept for half a
         second of a real car.
     :param set: changes of the scenario by path.
+    :param streets: draws a street of the generator for each episode instead of the scenario's: a dictionary with ``kinds`` and
+        ``density``, which may be empty; see :func:`interplay.streets.street_env`.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array"], "render_fps": PICTURES_PER_S}
@@ -98,6 +105,7 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         perturb: bool | Mapping[str, Any] = True,
         decision_s: float | None = None,
         set: Changes = None,
+        streets: Mapping[str, Any] | None = None,
         render_mode: str | None = None,
     ) -> None:
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
@@ -105,7 +113,7 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         self.render_mode = render_mode
         self._observation = observation
         agents = None if agent is None else [agent]
-        self._settings = environment_settings(observation, action, reward, agents, perturb, decision_s)
+        self._settings = environment_settings(observation, action, reward, agents, perturb, decision_s, streets)
         self._set = set
         self._play(load(scenario, set=set))
         self.observation_space, self.action_space = self._views.observation_space, self._views.action_space
@@ -153,9 +161,17 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
         self._is_seeded = True
         if self.render_mode == "human":
             self.render()
-        return self._views.observed(self._native.observe(0)), info_of(self._native, 0, None)
+        info = info_of(self._native, 0, None)
+        return self._views.observed(self._native.observe(0)), info if self.street is None else {**info, "street": self.street}
+
+    @property
+    def street(self) -> str | None:
+        """The name of the street of the episode, where streets are drawn."""
+        return self._native.street
 
     def _change_scenario(self, scenario: ScenarioLike) -> None:
+        if self.street is not None:
+            raise ValueError("each episode draws its street: choose `kinds`, and not a scenario")
         changed = load(scenario, set=self._set if not isinstance(scenario, _native.Scenario) else None)
         native = _native.Environment(changed, self._settings)
         views = Views(native, self._observation)
@@ -189,7 +205,7 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
     def report(self) -> Report | None:
         """Ends the episode and says what was measured in it; none before the first."""
         text = self._native.finish()
-        return None if text is None else Report({**records(text), "scenario": self.scenario.name})
+        return None if text is None else Report({**records(text), "scenario": self.street or self.scenario.name})
 
     def render(self) -> Any:
         """The world from above: an array of 544 × 720 pixels, or a window."""
@@ -226,17 +242,23 @@ class InterplayEnv(gymnasium.Env[Any, Any]):
             pygame.display.quit()
             self._window = None
 
-    def __getstate__(self) -> dict[str, Any]:
-        kept = ("render_mode", "_observation", "_settings", "_set", "_np_random", "_np_random_seed", "spec")
-        state = {name: self.__dict__[name] for name in kept if name in self.__dict__}
-        return {**state, "scenario": self.scenario}
+    def snapshot(self) -> EnvSnapshot:
+        """A copy of all state, for :meth:`restore`; it costs about as much as a step."""
+        return EnvSnapshot(_copy.deepcopy(self._native), self.scenario, self._is_seeded, _copy.deepcopy(self._np_random))
 
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        """A copy before its first episode."""
-        self.__dict__.update(state)
-        self._play(state["scenario"])
-        self.observation_space, self.action_space = self._views.observation_space, self._views.action_space
-        self._window = None
+    def restore(self, snapshot: EnvSnapshot) -> None:
+        """Goes back, or forth, to a snapshot of this environment or of one with the same spaces."""
+        native = copied(snapshot, [self.agent])
+        views = Views(native, self._observation)
+        if (views.observation_space, views.action_space) != (self.observation_space, self.action_space):
+            raise ValueError("the snapshot is of an environment with other spaces")
+        self._native, self._views = native, views
+        self.scenario, self._is_seeded = snapshot.scenario, snapshot.is_seeded
+        self._np_random = _copy.deepcopy(snapshot.random)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """All state but a window: a copy goes on where the original is."""
+        return without_window(self.__dict__)
 
 
 def _of_size(picture: NDArray[np.uint8], size: tuple[int, int]) -> NDArray[np.uint8]:
@@ -272,6 +294,7 @@ class InterplayVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         perturb: bool | Mapping[str, Any] = True,
         decision_s: float | None = None,
         set: Changes = None,
+        streets: Mapping[str, Any] | None = None,
         autoreset_mode: gymnasium.vector.AutoresetMode | str = gymnasium.vector.AutoresetMode.NEXT_STEP,
         copy: bool = True,
         render_mode: str | None = None,
@@ -282,7 +305,7 @@ class InterplayVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         names = {"NEXT_STEP": "next_step", "SAME_STEP": "same_step", "DISABLED": "disabled"}
         self.num_envs, self._mode, self._copy, self.render_mode = num_envs, mode, copy, render_mode
         self.metadata = {**self.metadata, "autoreset_mode": mode}
-        settings = environment_settings(observation, action, reward, None if agent is None else [agent], perturb, decision_s)
+        settings = environment_settings(observation, action, reward, None if agent is None else [agent], perturb, decision_s, streets)
         several = isinstance(scenario, Sequence) and not isinstance(scenario, str)
         listed: list[Any] = list(scenario) if several else [scenario] * num_envs  # type: ignore[arg-type]
         if len(listed) != num_envs:

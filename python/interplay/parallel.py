@@ -8,11 +8,17 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pettingzoo import ParallelEnv
 
 from . import _native
+from ._copies import EnvSnapshot, copied
 from ._library import Changes, ScenarioLike, load
-from ._spaces import environment_settings, own_seed
+from ._spaces import environment_settings, needs, own_seed
+
+needs("gymnasium", "rl")
+needs("pettingzoo", "rl")
+
+from pettingzoo import ParallelEnv
+
 from .envs import PICTURE_PX, PICTURES_PER_S, Views, _of_size, info_of
 
 
@@ -117,6 +123,17 @@ class InterplayParallelEnv(ParallelEnv):
         """The world from above, an array of 544 × 720 pixels."""
         picture = self._native.picture()
         return None if picture is None else _of_size(picture, PICTURE_PX)
+
+    def snapshot(self) -> EnvSnapshot:
+        """A copy of all state, for :meth:`restore`; it costs about as much as a step."""
+        random = copy.deepcopy(self._rng)
+        return EnvSnapshot(copy.deepcopy(self._native), self.scenario, self._is_seeded, random, tuple(self.agents))
+
+    def restore(self, snapshot: EnvSnapshot) -> None:
+        """Goes back, or forth, to a snapshot of this environment or of one with the same settings."""
+        self._native = copied(snapshot, self.possible_agents)
+        self.scenario, self._is_seeded = snapshot.scenario, snapshot.is_seeded
+        self._rng, self.agents = copy.deepcopy(snapshot.random), [*snapshot.agents]
 
     def close(self) -> None:
         """Nothing is left open."""

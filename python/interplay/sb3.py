@@ -6,9 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from stable_baselines3.common.vec_env.base_vec_env import VecEnv as BaseVecEnv
 
 from . import _native
+from ._spaces import needs
+
+needs("stable_baselines3", "sb3")
+
+from stable_baselines3.common.vec_env.base_vec_env import VecEnv as BaseVecEnv
+
 from .envs import InterplayVectorEnv
 
 

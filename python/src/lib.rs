@@ -39,5 +39,6 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(building::identify, module)?)?;
     module.add_function(wrap_pyfunction!(policy::register_policy, module)?)?;
+    module.add_function(wrap_pyfunction!(policy::remove_policy, module)?)?;
     Ok(())
 }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{Action, AgentView, StartDraw};
+use super::{Action, AgentView, StartDraw, StreetDraw};
 use crate::simulation::run_error::RunError;
 
 /// Declares the terms of a reward and their weights.
@@ -91,6 +91,8 @@ pub struct EnvironmentSettings {
     pub reward: RewardWeights,
     /// The random draw of each episode's start.
     pub start: StartDraw,
+    /// The streets, of which each episode draws one; without them every episode is on the scenario's road.
+    pub streets: Option<StreetDraw>,
     /// Interval of decisions \[s\], rounded to plans. By default, meta-actions last half a second of a real car, and other actions one
     /// plan.
     pub decision_s: Option<f64>,
@@ -104,6 +106,7 @@ impl Default for EnvironmentSettings {
             action: Action::Continuous,
             reward: RewardWeights::default(),
             start: StartDraw::default(),
+            streets: None,
             decision_s: None,
         }
     }
@@ -144,6 +147,11 @@ pub enum EnvironmentError {
     /// No episode is in progress.
     #[error("the episode is over, or none has begun: call reset")]
     Over,
+    /// A saved episode goes otherwise when it is repeated.
+    #[error(
+        "the episode goes otherwise in this program: it was saved by another version, or a file of its scenario has changed"
+    )]
+    OtherEpisode,
     /// The simulation failed.
     #[error(transparent)]
     Run(#[from] RunError),
