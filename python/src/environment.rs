@@ -64,6 +64,30 @@ pub fn as_json(what: &str, value: &impl serde::Serialize) -> PyResult<String> {
     serde_json::to_string(value).map_err(|error| bad_json(what, &error))
 }
 
+/// The state of every vehicle of an environment, by name: position, heading and speed.
+pub fn states(environment: &Environment) -> Vec<(String, [f64; 4])> {
+    let Some(world) = environment.world() else { return Vec::new() };
+    let names = world.scenario().vehicles.iter().map(|vehicle| vehicle.name.clone());
+    names.zip(world.states()).map(|(name, state)| (name, state.to_array())).collect()
+}
+
+/// The picture of an environment now; none before the first episode.
+pub fn picture<'py>(py: Python<'py>, environment: &Environment) -> PyResult<Option<Bound<'py, PyArrayDyn<u8>>>> {
+    let Some(world) = environment.world() else { return Ok(None) };
+    let picture = py.detach(|| {
+        let scenario = world.scenario().clone();
+        let now = scenario.vehicles.iter().zip(world.states()).enumerate().map(|(index, (vehicle, state))| {
+            let last = world.frame().and_then(|frame| frame.vehicles.get(index).cloned()).unwrap_or_default();
+            VehicleFrame { name: vehicle.name.clone(), state, ..last }
+        });
+        let frame =
+            Frame { time_s: world.time_s(), vehicles: now.collect(), ..world.frame().cloned().unwrap_or_default() };
+        let now = RecordedRun::to_draw(scenario, vec![frame], world.report());
+        interplay_presentation::animation::last_picture(&now)
+    });
+    picture.map(|([width, height], pixels)| shaped(py, pixels, &[height as usize, width as usize, 3])).transpose()
+}
+
 /// The names of the terms of the reward.
 pub fn term_names() -> Vec<&'static str> {
     RewardTerm::ALL.iter().map(|term| term.name()).collect()
@@ -192,9 +216,7 @@ impl PyEnvironment {
 
     /// The state of every vehicle now, by name: position, heading and speed.
     fn states(&self) -> Vec<(String, [f64; 4])> {
-        let Some(world) = self.environment.world() else { return Vec::new() };
-        let names = world.scenario().vehicles.iter().map(|vehicle| vehicle.name.clone());
-        names.zip(world.states()).map(|(name, state)| (name, state.to_array())).collect()
+        states(&self.environment)
     }
 
     /// Ends the episode and returns its report as JSON; none before the first.
@@ -205,19 +227,7 @@ impl PyEnvironment {
 
     /// The picture of the world now: an array of rows, columns and red, green, blue; none before the first episode.
     fn picture<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArrayDyn<u8>>>> {
-        let Some(world) = self.environment.world() else { return Ok(None) };
-        let picture = py.detach(|| {
-            let scenario = world.scenario().clone();
-            let now = scenario.vehicles.iter().zip(world.states()).enumerate().map(|(index, (vehicle, state))| {
-                let last = world.frame().and_then(|frame| frame.vehicles.get(index).cloned()).unwrap_or_default();
-                VehicleFrame { name: vehicle.name.clone(), state, ..last }
-            });
-            let frame =
-                Frame { time_s: world.time_s(), vehicles: now.collect(), ..world.frame().cloned().unwrap_or_default() };
-            let now = RecordedRun::to_draw(scenario, vec![frame], world.report());
-            interplay_presentation::animation::last_picture(&now)
-        });
-        picture.map(|([width, height], pixels)| shaped(py, pixels, &[height as usize, width as usize, 3])).transpose()
+        picture(py, &self.environment)
     }
 }
 

@@ -65,6 +65,18 @@ reward_terms! {
     Gap gap = -0.5,
     /// Number of rules of the road that it broke.
     RuleBroken rule_broken = -1.0,
+    /// Time, weighted by the speed as a share of the desired one, at most 1.
+    Speed speed = 0.0,
+    /// Sum of the changes of acceleration, as shares of the strongest braking.
+    Jerk jerk = 0.0,
+    /// Time, weighted by the lateral acceleration as a share of the strongest braking.
+    Lateral lateral = 0.0,
+    /// Time behind a leader with a time gap below 1 s of a real car, weighted by the missing share of it.
+    TimeGap time_gap = 0.0,
+    /// Time during which it is astride a line between lanes.
+    Astride astride = 0.0,
+    /// 1 in the step of a contact in which it is at fault.
+    Fault fault = 0.0,
 }
 
 /// The values of the terms in one step, in the order of [`RewardTerm::ALL`].
