@@ -16,12 +16,13 @@ from typing import Any as _Any
 
 from ._library import Frames, Record, Report, check, identify, list, load, run, run_many
 from ._native import RunError, Scenario, ScenarioError, Snapshot, __version__
-from ._policies import PlannerPolicy, PolicyFunction, policy
+from ._policies import Network, PlannerPolicy, PolicyFunction, policy
 from ._simulation import Simulation, Zone
 from ._sweep import compare, sweep
 
 __all__ = [
     "Frames",
+    "Network",
     "PlannerPolicy",
     "PolicyFunction",
     "Record",
@@ -45,7 +46,7 @@ __all__ = [
 ]
 
 #: Modules that need an extra of the package; `interplay.envs` imports one when it is first used.
-_MODULES = {"building": "gymnasium", "envs": "gymnasium", "parallel": "pettingzoo", "sb3": "stable_baselines3", "streets": "gymnasium"}
+_MODULES = {"building": "gymnasium", "envs": "gymnasium", "highway": "gymnasium", "parallel": "pettingzoo", "sb3": "stable_baselines3", "streets": "gymnasium"}
 
 
 def __getattr__(name: str) -> _Any:

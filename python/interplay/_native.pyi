@@ -300,7 +300,7 @@ class Planner:
 
 @final
 class Batch:
-    """Worlds with one agent each that are stepped side by side, on all cores."""
+    """Worlds that are stepped side by side, on all cores; a row is an agent, those of the first world first."""
 
     def __new__(cls, scenarios: Sequence[Scenario], settings_json: str, autoreset: str) -> Batch:
         """A world of each scenario; ``autoreset`` is ``next_step``, ``same_step`` or ``disabled``."""
@@ -319,7 +319,7 @@ class Batch:
         """Begins episodes where ``which`` says so, each with its seed or the next of its sequence."""
 
     def observe(self) -> NDArray[np.float32]:
-        """What all agents see now, a row a world."""
+        """What all agents see now, a row an agent."""
 
     def step(
         self, actions: NDArray[np.float32]
@@ -330,12 +330,38 @@ class Batch:
         NDArray[np.bool_],
         NDArray[np.bool_],
         NDArray[np.float64],
+        NDArray[np.bool_],
         list[str | None],
     ]:
-        """Steps all worlds; returns observations, last observations, rewards, terminated, truncated, terms and endings."""
+        """Steps all worlds; returns observations, last observations, rewards, terminated, truncated, terms, agents that go on, endings."""
 
     def action_masks(self) -> list[list[bool] | None]:
-        """Which meta-actions the agent of each world can do now."""
+        """Which meta-actions each agent can do now."""
+
+    def agents(self, world: int) -> list[str]:
+        """The names of the agents' vehicles in a world."""
+
+    def about(self, world: int) -> tuple[float, str | None]:
+        """Simulated time of a world, and the name of its street, where streets are drawn."""
+
+    def states(self, world: int) -> list[tuple[str, list[float]]]:
+        """The state of every vehicle of a world."""
+
+    def picture(self, world: int) -> NDArray[np.uint8] | None:
+        """The picture of a world; none before the first episode."""
+
+@final
+class Network:
+    """A trained network of a ``.safetensors`` file."""
+
+    def __new__(cls, file: str) -> Network:
+        """Reads the file."""
+
+    def about(self) -> tuple[str, str, str]:
+        """The views and the kind of action as JSON, and the digest of the file."""
+
+    def decide(self, observation: NDArray[np.float32]) -> tuple[list[float], list[float]]:
+        """The outputs of the last layer for one flat observation, and the flat action."""
 
 @final
 class RecordedRun:

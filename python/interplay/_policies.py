@@ -19,7 +19,7 @@ from . import _native
 from ._spaces import flat_action, observation_settings, shaped_observation
 
 #: A kind of driver, the path of a network, a policy, or functions by name; none for the scenario's own.
-Planner = Union[str, "os.PathLike[str]", Mapping[str, Any], "PlannerPolicy", None]
+Planner = Union[str, "os.PathLike[str]", Mapping[str, Any], "PlannerPolicy", "Network", None]
 
 #: Numbers of registrations of functions for one run each; 0 is that of sweeps.
 _registrations = itertools.count(1)
@@ -85,7 +85,6 @@ class PolicyFunction:
         }
         return driver if self.decision_s is None else {**driver, "decision_s": float(self.decision_s)}
 
-
     def _checked(self, action: Any) -> NDArray[np.float32]:
         """The numbers of an action of the function; what is none is a ValueError."""
         numbers = np.asarray(action)
@@ -130,6 +129,8 @@ def resolved(planner: Planner) -> tuple[str | None, dict[str, Any] | None, Regis
     """The driver of the ego in one run: its kind, or its settings, and the function that they call."""
     if isinstance(planner, PlannerPolicy):
         return None, {"kind": planner.kind, **planner.settings}, None
+    if isinstance(planner, Network):
+        planner = planner.file
     if isinstance(planner, os.PathLike) or (isinstance(planner, str) and planner.endswith(".safetensors")):
         return None, {"kind": "policy", "file": os.path.abspath(planner)}, None
     if planner is None or isinstance(planner, str):
@@ -204,6 +205,33 @@ class PlannerPolicy:
     def reset(self) -> None:
         """Forgets all that it remembers; to be called where an episode begins."""
         self._planner.forget()
+
+
+class Network:
+    """A trained network of a ``.safetensors`` file, which decides as it does with ``kind = "policy"``, bit for bit.
+
+    ``predict`` is that of stable-baselines3; ``outputs`` are those of the last layer.
+    """
+
+    def __init__(self, file: str | os.PathLike[str]) -> None:
+        self.file = os.path.abspath(file)
+        self._native = _native.Network(self.file)
+        views, action, self.digest = self._native.about()
+        self.observations, self.action = json.loads(views), json.loads(action)
+
+    def outputs(self, observation: Any) -> NDArray[np.float64]:
+        """The outputs of the last layer: means of the numbers of an action, or a value for each meta-action."""
+        return np.array(self._native.decide(flat_action(observation))[0])
+
+    def predict(
+        self, observation: Any, state: Any = None, episode_start: Any = None, deterministic: bool = True
+    ) -> tuple[Any, Any]:
+        """The action for an observation, and no state."""
+        action = np.array(self._native.decide(flat_action(observation))[1], dtype=np.float32)
+        return (np.int64(action[0]) if self.action == "DiscreteMeta" else action), state
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Network, (self.file,)
 
 
 def policy(kind: str, **settings: Any) -> PlannerPolicy:

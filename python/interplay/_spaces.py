@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import json
+import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -47,6 +48,7 @@ def environment_settings(
     perturb: bool | Mapping[str, Any],
     decision_s: float | None,
     streets: Mapping[str, Any] | None = None,
+    set: Any = None,
 ) -> str:
     """The settings of an environment as JSON."""
     kind = action.get("type", action.get("kind")) if isinstance(action, Mapping) else action
@@ -65,10 +67,20 @@ def environment_settings(
         "agents": [agents] if isinstance(agents, str) else list(agents or []),
     }
     if streets is not None:
-        settings["streets"] = dict(streets)
+        from ._library import changes
+
+        settings["streets"] = {**streets, "set": changes(set)}
     if reward is not None:
         settings["reward"] = dict(reward)
     return json.dumps(settings)
+
+
+def drawn_scenarios(listed: Sequence[Any], streets: Mapping[str, Any] | None) -> tuple[str, dict[str, Any]]:
+    """The first of some scenarios, and the settings with which each episode draws one of them."""
+    if not listed or not all(isinstance(entry, (str, os.PathLike)) for entry in listed):
+        raise ValueError("a list of scenarios, of which each episode draws one, has names and paths, and at least one")
+    names = [os.fspath(entry) for entry in listed]
+    return names[0], {**(streets or {}), "scenarios": names}
 
 
 def shaped_observation(numbers: NDArray[np.float32], shapes: Sequence[tuple[str, Sequence[int]]], is_single: bool) -> Any:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._policies import Registered, as_function
+from ._policies import Network, Registered, as_function
 from ._spaces import needs
 
 if TYPE_CHECKING:
@@ -35,6 +35,9 @@ def _planners(planners: Any, functions: list[Registered]) -> list[Any]:
                 kind = driver.pop("kind")
                 del driver["registration"]
                 found.append({"name": name, "kind": kind, "set": {f"vehicle.ego.driver.{key}": value for key, value in driver.items()}})
+        elif isinstance(planner, Network) or str(planner).endswith(".safetensors"):
+            file = os.path.abspath(planner.file if isinstance(planner, Network) else planner)
+            found.append({"name": Path(file).stem, "kind": "policy", "set": {"vehicle.ego.driver.file": file}})
         else:
             found.append(planner)
     return found
@@ -51,7 +54,7 @@ def sweep(
     """Runs a plan on all cores and returns its rows, those of ``runs.parquet``.
 
     ``plan`` is the name of a plan in the package, a path, or a dictionary with the keys of a plan, in which ``planner`` may hold
-    functions of Python: ``["negotiation", {"mine": function}]``. A function's name and version enter the keys of its runs: what is
+    functions of Python and networks: ``["negotiation", {"mine": function}, "net.safetensors"]``. A function's name and version enter the keys of its runs: what is
     in the folder ``out`` is not run again. Without ``out`` nothing is kept.
     """
     pd, _ = needs("pandas", "pandas"), needs("pyarrow", "pandas")

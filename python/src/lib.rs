@@ -30,6 +30,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<environment::PyEnvironment>()?;
     module.add_class::<environment::PyPlanner>()?;
     module.add_class::<batch::PyBatch>()?;
+    module.add_class::<policy::PyNetwork>()?;
     module.add_class::<run::PyRecordedRun>()?;
     module.add_function(wrap_pyfunction!(command::main, module)?)?;
     module.add_function(wrap_pyfunction!(scenario::list_scenarios, module)?)?;

@@ -6,14 +6,18 @@ use std::sync::{Arc, LazyLock, PoisonError, RwLock};
 use interplay_planners::prediction::Prediction;
 use interplay_planners::scene::inferred_futures::InferredFutures;
 use interplay_planners::{Drive, DriverKind, DriverSettingError, Plan, PlanError, Scene};
-use interplay_simulation::environment::{Action, AgentInterface, AgentView, Policy, PolicyDriver, PolicyError};
+use interplay_simulation::environment::{
+    Action, AgentInterface, AgentView, NetworkPolicy, Policy, PolicyDriver, PolicyError,
+};
 use numpy::{IntoPyArray, PyReadonlyArrayDyn};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::arrays::numbers;
+use crate::environment::as_json;
 
 /// The functions that are registered, by name and number of the registration.
 static POLICIES: LazyLock<RwLock<HashMap<(String, u64), Arc<Py<PyAny>>>>> = LazyLock::new(RwLock::default);
@@ -62,6 +66,31 @@ pub fn remove_policy(py: Python<'_>, name: String, registration: u64) {
     let removed = py.detach(|| POLICIES.write().unwrap_or_else(PoisonError::into_inner).remove(&(name, registration)));
     // The function is dropped without the lock: what Python does then may register another.
     drop(removed);
+}
+
+/// A trained network of a `.safetensors` file, as it drives with `kind = "policy"`.
+#[pyclass(name = "Network", module = "interplay._native", frozen)]
+pub struct PyNetwork(NetworkPolicy);
+
+#[pymethods]
+impl PyNetwork {
+    /// Reads the file.
+    #[new]
+    fn new(file: String) -> PyResult<Self> {
+        let fault = |reason: String| PyValueError::new_err(format!("`{file}` {reason}"));
+        NetworkPolicy::of_file(file.clone()).map(PyNetwork).map_err(fault)
+    }
+
+    /// The views as JSON, the kind of action as JSON, and the digest of the file.
+    fn about(&self) -> PyResult<(String, String, String)> {
+        let (views, action, digest) = self.0.about().map_err(PyValueError::new_err)?;
+        Ok((as_json("the views", &views)?, as_json("the action", &action)?, digest.to_owned()))
+    }
+
+    /// The outputs of the last layer for one flat observation, and the flat action.
+    fn decide(&self, observation: PyReadonlyArrayDyn<'_, f32>) -> PyResult<(Vec<f64>, Vec<f32>)> {
+        self.0.decide(&numbers(&observation)).map_err(|reason| PyValueError::new_err(format!("the network {reason}")))
+    }
 }
 
 /// A function of Python as a driver: what it sees and decides, and which one it is.

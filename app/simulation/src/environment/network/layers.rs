@@ -103,12 +103,17 @@ impl Network {
             ActionSpace::OneOf(count) => count,
             ActionSpace::Rows(_) => action.len(),
         };
-        let inputs = self.layers[0].inputs();
+        let inputs = self.inputs();
         let found = self.layers.last().map_or(0, |layer| layer.bias.len());
         if inputs != observation_len {
             return Some(format!("has {inputs} inputs, and its observations {observation_len} numbers"));
         }
         (found != outputs).then(|| format!("has {found} outputs, and its actions need {outputs}"))
+    }
+
+    /// Number of numbers of an observation.
+    pub fn inputs(&self) -> usize {
+        self.layers[0].inputs()
     }
 
     /// The outputs of the last layer for an observation.

@@ -19,7 +19,7 @@ use serde::ser::SerializeStruct;
 use serde::{Deserialize, Serialize, Serializer};
 
 use self::layers::Network;
-use super::{AgentInterface, PolicyDriver};
+use super::{Action, AgentInterface, AgentView, PolicyDriver};
 
 /// The largest file: the most weights, and a header \[bytes\].
 const MAX_FILE_BYTES: u64 = 4 * tensors::MAX_WEIGHTS as u64 + (1 << 16);
@@ -40,6 +40,37 @@ pub struct NetworkPolicy {
 }
 
 impl NetworkPolicy {
+    /// The network of a file, as a driver.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn of_file(file: String) -> Result<NetworkPolicy, String> {
+        let policy = NetworkPolicy { file, ..NetworkPolicy::default() };
+        policy.network().map(|_| ())?;
+        Ok(policy)
+    }
+
+    /// What the network sees, what it decides, and the digest of its file.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn about(&self) -> Result<(&[AgentView], Action, &str), String> {
+        self.network().map(|network| (&network.observations[..], network.action, network.digest.as_str()))
+    }
+
+    /// The outputs of the last layer for an observation, and the action that follows from them.
+    ///
+    /// # Errors
+    /// What is wrong with the file, or the length of the observation.
+    pub fn decide(&self, observation: &[f32]) -> Result<(Vec<f64>, Vec<f32>), String> {
+        let network = self.network()?;
+        let (found, wanted) = (observation.len(), network.inputs());
+        if found != wanted {
+            return Err(format!("has {wanted} inputs, and the observation {found} numbers"));
+        }
+        Ok((network.outputs(observation), network.action_for(observation)))
+    }
+
     /// The network, read at the first call; or what is wrong with the file.
     fn network(&self) -> Result<&Arc<Network>, String> {
         let read = || {
