@@ -27,6 +27,7 @@ import interplay
 
 IDS = sorted(name for name in gymnasium.registry if name.startswith("interplay/"))
 SCENARIO = "lane-change/front-nice"
+TRAINING_STEPS = 20_480
 #: Makes the environments of Interplay those that the tests of Gymnasium are run with.
 PLUGIN = """
 import sys, types, gymnasium, interplay
@@ -202,6 +203,52 @@ def networks(_: Path) -> str:
     return f"largest difference of an output {error:.1e}, {same} of 10,000 actions equal"
 
 
+def trained(_: Path) -> str:
+    """A PPO drives equally in its environment, as a function in runs, and as ``kind = "policy"``; deterministic and sampled."""
+    sb3, torch = module("stable_baselines3"), module("torch")
+    from interplay.sb3 import VecEnv
+
+    torch.set_num_threads(1)
+    reward = {"progress": 0.2, "gap": -1.0, "jerk": -0.1, "lateral": -0.2}
+    worlds = VecEnv(SCENARIO, num_envs=8, reward=reward)
+    settings = {"n_steps": 128, "batch_size": 256, "n_epochs": 8, "gamma": 0.97, "learning_rate": 1e-3, "seed": 1, "device": "cpu"}
+    model = sb3.PPO("MlpPolicy", worlds, **settings).learn(TRAINING_STEPS)
+    sys.path.insert(0, str(Path(__file__).parent / "examples"))
+    file = Path(tempfile.mkdtemp()) / "ppo.safetensors"
+    module("export_policy").export_ppo(model, str(file))
+    network, jitter = interplay.Network(file), {"start_jitter": {"position_m": 0.1, "speed_mps": 0.1}}
+    env = gymnasium.make("interplay/LaneChange-v0", set=jitter, perturb=False, disable_env_checker=True).unwrapped
+
+    def goals_in_environment(act: Callable[[Any], Any], seed: int) -> tuple[bool, list[Any]]:
+        seen, info = env.reset(options={"seed": seed})
+        states = []
+        while "ending" not in info:
+            seen, _, _, _, info = env.step(act(seen))
+            states.append(env.states()["ego"])
+        return info["ending"] == "goal", states
+
+    counts, bits = np.zeros(5, dtype=int), 0
+    for seed in range(30):
+        sampled = interplay.PolicyFunction(model, deterministic=False)
+        sampled.seed = seed
+        of_network, states = goals_in_environment(lambda seen: network.predict(seen)[0], seed)
+        reports = [
+            interplay.run(SCENARIO, planner, seed=seed, set=jitter)
+            for planner in (file, {"ppo": interplay.PolicyFunction(model)}, {"ppo": sampled})
+        ]
+        in_runs = [report.vehicles[0].completed_s is not None and not report.collisions for report in reports]
+        in_environment = [of_network, goals_in_environment(sampled.function, seed)[0]]
+        counts += np.array([in_environment[0], *in_runs[:2], in_environment[1], in_runs[2]])
+        frames = reports[0].frames()
+        driven = np.stack([frames[name][1 : len(states) + 1, 0] for name in ("x_m", "y_m", "heading_rad", "speed_mps")], axis=1)
+        bits += int(np.array_equal(driven, np.array(states)[: len(driven)]))
+    assert counts[0] == counts[1] == counts[2] and counts[3] == counts[4] and bits == 30, (counts, bits)
+    return (
+        f"of 30 starts after {TRAINING_STEPS} steps: {counts[0]} in the environment, {counts[1]} as kind policy, {counts[2]} as a function; "
+        f"sampled {counts[3]} and {counts[4]}; motions equal bit for bit in {bits}"
+    )
+
+
 def streets(_: Path) -> str:
     """Roads of 1,000 resets."""
     env = gymnasium.make("interplay/Street-v0", disable_env_checker=True).unwrapped
@@ -238,6 +285,7 @@ CHECKS: list[Callable[[Path], str]] = [
     videos,
     joblib,
     networks,
+    trained,
     streets,
     memory,
 ]

@@ -21,10 +21,15 @@ def export(path: str, layers: Sequence[Any], **about: str) -> None:
         file.write(struct.pack("<Q", len(text)) + text + numbers)
 
 
-if __name__ == "__main__":  # export_policy.py MODEL.zip OUT.safetensors: a PPO of stable-baselines3
-    from stable_baselines3 import PPO
-
-    policy = PPO.load(sys.argv[1], device="cpu").policy
+def export_ppo(model: Any, path: str, observations: Any = ({"kind": "Kinematics"},)) -> None:
+    """Writes a PPO of stable-baselines3 with an ``MlpPolicy``."""
+    policy = model.policy
     layers = [layer for layer in policy.mlp_extractor.policy_net if hasattr(layer, "weight")] + [policy.action_net]
     action = "DiscreteMeta" if hasattr(policy.action_space, "n") else "Continuous"
-    export(sys.argv[2], layers, observations=json.dumps([{"kind": "Kinematics"}]), action=action, activation="tanh")
+    export(path, layers, observations=json.dumps(observations), action=action, activation="tanh")
+
+
+if __name__ == "__main__":  # export_policy.py MODEL.zip OUT.safetensors
+    from stable_baselines3 import PPO
+
+    export_ppo(PPO.load(sys.argv[1], device="cpu"), sys.argv[2])

@@ -14,9 +14,10 @@ With Gymnasium installed, ``import interplay`` registers its environments:
 import importlib.util as _util
 from typing import Any as _Any
 
-from ._library import Frames, Record, Report, check, identify, list, load, run, run_many
+from ._library import Frames, Report, check, identify, list, load, run, run_many
 from ._native import RunError, Scenario, ScenarioError, Snapshot, __version__
 from ._policies import Network, PlannerPolicy, PolicyFunction, policy
+from ._reports import Record, VehicleReport
 from ._simulation import Simulation, Zone
 from ._sweep import compare, sweep
 
@@ -32,6 +33,7 @@ __all__ = [
     "ScenarioError",
     "Simulation",
     "Snapshot",
+    "VehicleReport",
     "Zone",
     "__version__",
     "check",

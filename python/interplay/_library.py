@@ -15,6 +15,7 @@ import numpy as np
 
 from . import _native
 from ._native import Scenario
+from ._reports import Entry, Record, VehicleReport, records
 from ._spaces import needs, own_seed
 
 if TYPE_CHECKING:
@@ -24,24 +25,6 @@ if TYPE_CHECKING:
 
 ScenarioLike = Union[str, "os.PathLike[str]", Scenario]
 Changes = Union[Mapping[str, Any], Sequence[str], None]
-
-
-class Record(dict[str, Any]):
-    """A table of JSON whose keys are attributes, too."""
-
-    def __getattr__(self, name: str) -> Any:
-        try:
-            return self[name]
-        except KeyError:
-            raise AttributeError(f"no `{name}`; there are {', '.join(self)}") from None
-
-    def __dir__(self) -> builtins.list[str]:
-        return [*super().__dir__(), *self]
-
-
-def records(text: str) -> Any:
-    """JSON as numbers, lists and records."""
-    return json.loads(text, object_hook=Record)
 
 
 def as_json(value: Any) -> str:
@@ -102,10 +85,10 @@ def load(name_or_path: ScenarioLike, *, set: Changes = None, seed: int | None = 
     return Scenario.load(os.fspath(name_or_path), changes(set), seed, planner)
 
 
-def list() -> builtins.list[Record]:
+def list() -> builtins.list[Entry]:
     """The scenarios of the package: name, title, what each shows, figure of the dissertation."""
     names = ("name", "title", "shows", "figure")
-    return [Record(zip(names, row)) for row in _native.list_scenarios()]
+    return [Entry(zip(names, row)) for row in _native.list_scenarios()]
 
 
 def check(name_or_path: ScenarioLike, *, set: Changes = None) -> builtins.list[str]:
@@ -185,8 +168,26 @@ class RecordedTicks:
 
 
 class Report(Record):
-    """What was measured in a run, with the keys of ``interplay run --json``."""
+    """What was measured in a run, with the keys of ``interplay run --json``, which are attributes, too."""
 
+    scenario: str
+    passed: bool
+    seed: int
+    simulated_s: float
+    wall_s: float
+    digest: str
+    phase_digests: Any
+    collisions: builtins.list[Any]
+    contact_by_ego: bool
+    min_gap_m: float | None
+    smallest_gap: Any
+    shortest_time_to_collision: Any
+    right_of_way: builtins.list[Any]
+    order: builtins.list[str]
+    vehicles: builtins.list[VehicleReport]
+    building: Any
+    expectations: builtins.list[Any]
+    counterfactuals: builtins.list[Any]
     _recorded: _native.RecordedRun | RecordedTicks | None = None
 
     @classmethod
@@ -216,6 +217,12 @@ class Report(Record):
         if self._recorded is None:
             raise _native.RunError("only `interplay.run` keeps all ticks")
         return self._recorded
+
+    def __repr__(self) -> str:
+        return f"<Report of {self['scenario']!r}, seed {self['seed']}: {'passed' if self['passed'] else 'failed'}>"
+
+    def __str__(self) -> str:
+        return self.summary() if self._recorded is not None else repr(self)
 
     def to_dict(self) -> dict[str, Any]:
         """The report as plain dictionaries and lists."""
@@ -346,7 +353,7 @@ def run_many(
         pool.shutdown(wait=False, cancel_futures=True)
 
 
-def identify(table: Any, mapping: Any, *, scenario: str | os.PathLike[str] | None = None) -> Record:
+def identify(table: Any, mapping: Any, *, scenario: str | os.PathLike[str] | None = None) -> Any:
     """Finds thermal parameters in telemetry: the document of ``interplay identify --json``.
 
     ``table`` is a pandas table or the path of a CSV file, ``mapping`` says which column is what (``interplay identify --help``): a

@@ -10,7 +10,7 @@ import json
 import os
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Union
+from typing import Any, Literal, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,13 @@ from numpy.typing import NDArray
 from . import _native
 from ._spaces import flat_action, observation_settings, shaped_observation
 
+#: The kinds of drivers that can drive the ego.
+Kind = Literal[
+    "human", "idm", "scripted", "recorded", "walker", "external", "inputs", "conservative", "negotiation", "bayesian", "game",
+    "cooperative", "nash", "contingency",
+]  # fmt: skip
 #: A kind of driver, the path of a network, a policy, or functions by name; none for the scenario's own.
-Planner = Union[str, "os.PathLike[str]", Mapping[str, Any], "PlannerPolicy", "Network", None]
+Planner = Union[Kind, "os.PathLike[str]", Mapping[str, Any], "PlannerPolicy", "Network", None]
 
 #: Numbers of registrations of functions for one run each; 0 is that of sweeps.
 _registrations = itertools.count(1)
@@ -129,10 +134,9 @@ def resolved(planner: Planner) -> tuple[str | None, dict[str, Any] | None, Regis
     """The driver of the ego in one run: its kind, or its settings, and the function that they call."""
     if isinstance(planner, PlannerPolicy):
         return None, {"kind": planner.kind, **planner.settings}, None
-    if isinstance(planner, Network):
-        planner = planner.file
-    if isinstance(planner, os.PathLike) or (isinstance(planner, str) and planner.endswith(".safetensors")):
-        return None, {"kind": "policy", "file": os.path.abspath(planner)}, None
+    file = planner.file if isinstance(planner, Network) else planner
+    if isinstance(file, os.PathLike) or (isinstance(file, str) and file.endswith(".safetensors")):
+        return None, {"kind": "policy", "file": os.path.abspath(file)}, None
     if planner is None or isinstance(planner, str):
         return planner, None, None
     if not isinstance(planner, Mapping) or len(planner) != 1:
@@ -234,7 +238,7 @@ class Network:
         return Network, (self.file,)
 
 
-def policy(kind: str, **settings: Any) -> PlannerPolicy:
+def policy(kind: Kind, **settings: Any) -> PlannerPolicy:
     """A planner of Interplay, such as ``negotiation``, ``conservative`` or ``idm``, that acts in any of the environments.
 
     >>> policy = interplay.policy("negotiation").bind(env)

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._copies import EnvSnapshot, copied, without_window
-from ._library import Changes, Report, ScenarioLike, load, records
+from ._library import Changes, Report, ScenarioLike, load
+from ._reports import records
 from ._spaces import drawn_scenarios, environment_settings, flat_action, needs, own_seed
 
 needs("gymnasium", "rl")
@@ -304,7 +305,7 @@ class InterplayVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         if options is not None:
             options = dict(options)
             mask = np.asarray(options.pop("reset_mask", np.ones(self.num_envs)), dtype=np.bool_)
-            which = mask.reshape(self._worlds, -1).any(axis=1)
+            which[:] = mask.reshape(self._worlds, -1).any(axis=1)
             if options:
                 raise ValueError(f"option {next(iter(options))!r}; the only one of many worlds is reset_mask")
         self._native.reset(seeds, [bool(word) for word in which])

@@ -122,8 +122,8 @@ class InterplayParallelEnv(ParallelEnv):
 
     def state(self) -> NDArray[np.float32]:
         """The state of the world for a central critic: position, heading and speed of every vehicle, as ``state_space`` has it."""
-        states = [state for _, state in self._native.states()]
-        return np.array(states or np.zeros(self.state_space.shape), dtype=np.float32).reshape(-1)
+        states = [state for _, state in self._native.states()] or [[0.0] * 4] * len(self.scenario.vehicles)
+        return np.array(states, dtype=np.float32).reshape(-1)
 
     def planned(self, planner: _native.Planner, agent: str | int | None = None) -> Any:
         """The action of an Interplay planner for an agent now; see :func:`interplay.policy`."""

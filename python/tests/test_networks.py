@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 
 import interplay
-from helpers import refused
+from helpers import equal, refused
 from interplay import PolicyFunction
 from interplay.envs import InterplayEnv, InterplayVectorEnv
 
@@ -73,6 +73,12 @@ def test_a_network_of_a_file_drives_as_its_function(tmp_path: Path, action: str,
     reports = interplay.run_many("lane-change/front-nice", [path, str(path)], jobs=2)
     reports.append(interplay.run("lane-change/front-nice", set={"vehicle.ego.driver": driver}))
     assert len({report.digest for report in reports}) == 1 and reports[0].vehicles[0].driver == "policy"
+    network = interplay.Network(path)
+    of_values = interplay.run("lane-change/front-nice", {"mine": PolicyFunction(network, action=action)})
+    assert equal(dict(of_values.frames()), dict(from_file)) and interplay.run("lane-change/front-nice", network).digest == reports[0].digest
+    assert "inputs" in refused(lambda: network.outputs(np.zeros(3)))
+    rows = interplay.sweep({"scenario": ["lane-change/front-nice"], "planner": ["idm", path]}, jobs=2)
+    assert sorted(rows["planner"]) == ["idm", "mine"]
     path.write_bytes(path.read_bytes()[:-4])
     assert "mine.safetensors" in refused(lambda: interplay.run("lane-change/front-nice", path))
 
