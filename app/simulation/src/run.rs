@@ -17,8 +17,25 @@ pub use crate::simulation::run_error::RunError;
 /// # Errors
 /// [`RunError`] if the schedule cannot be built or a watcher fails.
 pub fn run(name: &str, scenario: &Scenario, watchers: Vec<Box<dyn Watcher>>) -> Result<Report, RunError> {
+    run_unless(&|| false, name, scenario, watchers)
+}
+
+/// As [`run`], until `is_cancelled`, which is asked after each step.
+///
+/// # Errors
+/// As [`run`]; [`RunError::Cancelled`].
+pub fn run_unless(
+    is_cancelled: &(dyn Fn() -> bool + Sync),
+    name: &str,
+    scenario: &Scenario,
+    watchers: Vec<Box<dyn Watcher>>,
+) -> Result<Report, RunError> {
     let mut simulation = Simulation::watched(name, scenario, watchers)?;
-    while simulation.step()?.is_some() {}
+    while simulation.step()?.is_some() {
+        if is_cancelled() {
+            return Err(RunError::Cancelled);
+        }
+    }
     simulation.finish()
 }
 
@@ -33,13 +50,27 @@ pub fn run_with_counterfactuals(
     watchers: Vec<Box<dyn Watcher>>,
 ) -> Result<Report, RunError> {
     let mut report = run(name, scenario, watchers)?;
+    add_counterfactuals(&|| false, name, scenario, &mut report)?;
+    Ok(report)
+}
+
+/// Runs the counterfactuals of `scenario` in parallel, until `is_cancelled`, and judges them in the report of its own run.
+///
+/// # Errors
+/// [`RunError::Counterfactual`] if one of the runs fails.
+pub fn add_counterfactuals(
+    is_cancelled: &(dyn Fn() -> bool + Sync),
+    name: &str,
+    scenario: &Scenario,
+    report: &mut Report,
+) -> Result<(), RunError> {
     let other = |counterfactual: &Counterfactual| {
         let unfinished =
             |reason| RunError::Counterfactual { name: counterfactual.stated.name.clone(), reason: Box::new(reason) };
-        run(name, &counterfactual.scenario, Vec::new()).map_err(unfinished)
+        run_unless(is_cancelled, name, &counterfactual.scenario, Vec::new()).map_err(unfinished)
     };
     let runs =
         scenario.counterfactuals.par_iter().with_max_len(1).map(other).collect::<Result<Vec<Report>, RunError>>()?;
     report.judge_counterfactuals(scenario, runs);
-    Ok(report)
+    Ok(())
 }

@@ -35,6 +35,7 @@ pub use fault::Faults;
 pub use metric::{
     Measurement, Metric, MomentStates, ObservedMoment, ObservedTick, SharedStates, VehicleMoment, VehicleTick,
 };
+pub(crate) use metrics::time_gap_s;
 pub use milestones::{Milestones, is_arrival};
 pub use planning::{Beliefs, HeldBelief, Planning};
 pub use registered::{RegisterMetrics, metric_table, metrics_of};
