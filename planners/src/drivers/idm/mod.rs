@@ -140,7 +140,7 @@ impl Drive for Idm {
         let minded = with_others(&whole, is_minded);
         let lanes = RoadLanes::of_road(&minded, self.settings.mobil.lane_width_m);
         let now = self.lane(&minded, &lanes);
-        let choice = mobil::choose(&minded, &self.settings, now);
+        let choice = mobil::choose(&minded, &scene.others, &self.settings, now);
         self.lane_centre_m = Some(lanes.centre_m(choice.lane));
         let line_m = seen.ego.rules.stop_line_m;
         let from_to = [now, choice.lane];

@@ -76,6 +76,7 @@ impl Motion<'_> {
         let permitted_mps =
             places_m.and_then(|places_m| least(places_m.map(|along_m| own.permitted_speed_mps(along_m))));
         let wanted_mps = permitted_mps.map_or(wanted_mps, |permitted_mps| permitted_mps.min(wanted_mps));
+        let wanted_mps = own.merging_speed_mps().map_or(wanted_mps, |merging_mps| merging_mps.min(wanted_mps));
         let acceleration = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
         // On a free road the model brakes too weakly for a limit ahead.
         let highest = |along_m: f64| own.permitted_acceleration_mps2(along_m, state.speed_mps, scene.step_s);
