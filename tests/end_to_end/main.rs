@@ -5,7 +5,7 @@
 //! - many runs from one plan: [`sweeps`]; runs as tables: [`trajectories`]; runs as CommonRoad scenarios: [`exports`]
 //! - a user's files, terminal and server stay unharmed: [`unharmed`], [`faults`]
 //! - laws of every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`],
-//!   [`causality`], [`seen_streets`], [`next_street`]
+//!   [`causality`], [`seen_streets`], [`next_street`], [`long_vehicles`]
 //! - changes of a scenario: [`counterfactuals`], [`mutation`]
 //! - extensions by users: [`own`]
 //! - plants with tyres, friction and lag: [`plants`]
@@ -45,6 +45,7 @@ mod identified_houses;
 mod laws;
 mod learning;
 mod limits;
+mod long_vehicles;
 mod lines;
 mod measures;
 mod modules;

@@ -66,7 +66,6 @@ const KNOWN_FAILURES: &[(&str, &str, &str)] = &[
         "human/assertive",
         "assertive drivers neither overtake nor return to the middle of their lane",
     ),
-    ("handover-beside-middle", "human", "a driver that takes over beside the middle stays there"),
     (
         "steering-rate-fork",
         "conservative",

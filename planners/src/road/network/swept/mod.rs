@@ -9,7 +9,7 @@
 //! - its edges are those of the paved area ([`area`]): oncoming lanes and the other lanes of a junction belong to it,
 //! - its own lane is what the body covers, so that routes of others which it covers, too, meet it there ([`conflicts`](super::conflicts)).
 //!
-//! What others drive on and it covers only because it swings out, it takes while nobody comes
+//! What others drive on and it covers only because it swings out, it takes while no vehicle comes
 //! ([`Route::set_of`]).
 
 mod area;
