@@ -35,7 +35,10 @@ impl Area {
         let to_m = (window_m[1] + reach_m).min(route.end_m());
         let spacing_m = 2.0 * super::SPACING * turner.body.wheelbase_m();
         let count = ((to_m - from_m) / spacing_m).ceil().max(1.0);
-        let near: Vec<Pavement> = network.lanes().iter().filter_map(|lane| Pavement::of(lane, width_m)).collect();
+        let middle = route.centre.position(0.5 * (from_m + to_m), 0.0);
+        let reach_m = 0.5 * (to_m - from_m) + (FARTHEST_RATIO + 1.0) * width_m;
+        let pavements = network.lanes().iter().filter_map(|lane| Pavement::of(lane, width_m));
+        let near: Vec<Pavement> = pavements.filter(|pavement| pavement.is_within(middle, reach_m)).collect();
         let places = (0..=count as usize).map(|place| {
             let along_m = (from_m + spacing_m * place as f64).min(to_m);
             [-1.0, 1.0].map(|side| edge_m(&near, route, along_m, side, width_m))
@@ -106,9 +109,14 @@ impl Pavement<'_> {
         Some(Pavement { lane, parts, radius_m: 0.5 * part_m + lane.width.extremes(0.0, centre.length_m())[1] })
     }
 
+    /// Whether a part of it may be nearer to a point than some distance \[m\].
+    fn is_within(&self, point: [f64; 2], reach_m: f64) -> bool {
+        let distance_m = |part: &[f64; 2]| libm::hypot(part[0] - point[0], part[1] - point[1]);
+        self.parts.iter().any(|part| distance_m(part) < self.radius_m + reach_m)
+    }
+
     fn holds(&self, point: [f64; 2]) -> bool {
-        let is_near = |part: &[f64; 2]| libm::hypot(part[0] - point[0], part[1] - point[1]) < self.radius_m;
-        self.parts.iter().any(is_near) && {
+        self.is_within(point, 0.0) && {
             let at = self.lane.centre.project(point, None);
             (0.0..=self.lane.centre.length_m()).contains(&at.along_m)
                 && at.across_m.abs() <= self.lane.half_width_m(at.along_m)
