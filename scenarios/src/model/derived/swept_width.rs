@@ -37,10 +37,12 @@ struct TightTurn {
 /// Whether a body cannot come round a turn without leaving the road: on a network driven along its route by the bicycle model, elsewhere
 /// because it sweeps more than the width of the road.
 pub(crate) fn remark(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> {
+    let turn = tightest(&vehicle.body, &vehicle.route, vehicle.route.along(vehicle.start.position()));
     if scenario.network.is_some() {
-        return tight_turn(scenario, vehicle);
+        let may_leave = turn.is_some() || vehicle.route.is_swept();
+        return may_leave.then(|| tight_turn(scenario, vehicle)).flatten();
     }
-    let turn = tightest(&vehicle.body, &vehicle.route, vehicle.route.along(vehicle.start.position()))?;
+    let turn = turn?;
     let [swept_m, road_m, radius_m] = [turn.swept_m, turn.road_m, turn.inner_m + 0.5 * turn.road_m].map(to_tenths);
     let message = format!(
         "vehicle {} covers a width of {swept_m} m in the turn after {} m, which has {road_m} m and a radius of {radius_m} m",
@@ -65,9 +67,11 @@ fn tight_turn(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)
         to_tenths(body.front_m + body.rear_m),
         quoted(name)
     );
-    let shorter = "the `class` of a shorter vehicle works";
-    let help = smallest_radius(&scenario.road, vehicle, &turner)
-        .map_or_else(|| shorter.to_owned(), |(key, radius_m)| format!("`road.{key} = {radius_m}` works, or {shorter}"));
+    let else_works = "a wider lane may work, or the `class` of a shorter vehicle";
+    let help = smallest_radius(&scenario.road, vehicle, &turner).map_or_else(
+        || else_works.to_owned(),
+        |(key, radius_m)| format!("`road.{key} = {radius_m}` works; {else_works}"),
+    );
     Some((message, help))
 }
 
