@@ -9,8 +9,9 @@
 //! behind  −(x_f + v_f t) − l ≥ s₀ + T v_f + (v_f − v)₊²/(2 b)
 //! ```
 //!
-//! where `x` is how far a front is beyond the meeting, and `b` what the one behind may have to brake. Until then it drives no faster than
-//! `d/t`: so it is early where it slows down a little, and as fast as the others when it joins.
+//! where `x` is how far a front is beyond the meeting, and `b` what the one behind may have to brake. Until it would not be too early it
+//! keeps its speed, or drives with `d/t` where that is less. So it slows down early and a little, and joins with
+//! `v = v₀ + √(2 a (d − v₀ t))` if it keeps `v₀`.
 
 use super::obliged::Obliged;
 use crate::Agent;
@@ -81,7 +82,7 @@ pub(super) fn merging(user: &Obliged<'_>, users: &[Obliged<'_>]) -> Option<Mergi
             break;
         }
     }
-    let (ahead, in_s) = last?;
+    let (ahead, in_s) = last.filter(|(_, in_s)| *in_s > free_s)?;
     Some(Merging { behind: ahead.agent.name.clone(), meeting_m, in_s })
 }
 
@@ -110,8 +111,9 @@ fn has_room_behind(ego: &Agent, behind: Option<&Passing<'_>>, in_s: f64, way_m: 
     let Some(Passing { agent, beyond_m, .. }) = behind else { return true };
     let ratio = ego.body.real_ratio();
     let speed_mps = agent.state.speed_mps;
-    // From the present speed on it changes evenly to that with which it joins.
-    let joining_mps = (2.0 * way_m / in_s - ego.state.speed_mps).clamp(0.0, ego.limits.speed_max_mps);
+    let (now_mps, gained_mps2) = (ego.state.speed_mps, ENTERING_SHARE * ego.limits.acceleration_max_mps2);
+    let kept_mps = now_mps.min(way_m / in_s);
+    let joining_mps = kept_mps + (2.0 * gained_mps2 * (way_m - kept_mps * in_s)).max(0.0).sqrt();
     let slower_mps = (speed_mps - joining_mps).max(0.0);
     let needed_m = STANDSTILL_M * ratio
         + TIME_GAP_S * ratio.sqrt() * speed_mps
@@ -120,9 +122,9 @@ fn has_room_behind(ego: &Agent, behind: Option<&Passing<'_>>, in_s: f64, way_m: 
 }
 
 impl Agent {
-    /// The speed with which it comes to where it joins the way of others when there is room \[m/s\]; none if nothing holds it.
+    /// The speed that it does not exceed for now, so that there is room when it joins the way of others \[m/s\]; none if nothing holds it.
     pub(crate) fn merging_speed_mps(&self) -> Option<f64> {
         let Merging { meeting_m, in_s, .. } = self.rules.merging.as_ref()?;
-        Some((meeting_m - front_m(self)).max(0.0) / in_s.max(1e-3))
+        Some(self.state.speed_mps.min((meeting_m - front_m(self)).max(0.0) / in_s.max(1e-3)))
     }
 }

@@ -22,6 +22,9 @@ const LOOKING_AHEAD: f64 = 0.75;
 const COURTESY_MPS2: f64 = 1.0;
 const COURTESY_MPS: f64 = 3.0;
 
+/// Time in which it comes to the speed at which it waits for its gap, of real vehicles \[s\].
+const MERGING_S: f64 = 1.5;
+
 /// How a driver drives.
 pub(super) struct Motion<'a> {
     pub settings: &'a Settings,
@@ -83,7 +86,6 @@ impl Motion<'_> {
         let permitted_mps =
             places_m.and_then(|places_m| least(places_m.map(|along_m| own.permitted_speed_mps(along_m))));
         let wanted_mps = permitted_mps.map_or(wanted_mps, |permitted_mps| permitted_mps.min(wanted_mps));
-        let wanted_mps = own.merging_speed_mps().map_or(wanted_mps, |merging_mps| merging_mps.min(wanted_mps));
         let acceleration = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
         let acceleration = self.owed.map_or(acceleration, |owed| {
             let taken = leader(owed, lanes, to, state, t);
@@ -93,6 +95,10 @@ impl Motion<'_> {
             let is_slow = lost_mps > COURTESY_MPS * own.body.real_ratio().sqrt();
             acceleration.max(alone.min(if is_slow { 0.0 } else { -COURTESY_MPS2 }))
         });
+        // It slows down evenly for its gap.
+        let merging_mps2 =
+            own.merging_speed_mps().map(|mps| (mps - state.speed_mps) / (MERGING_S * own.body.real_ratio().sqrt()));
+        let acceleration = merging_mps2.map_or(acceleration, |merging_mps2| acceleration.min(merging_mps2));
         // On a free road the model brakes too weakly for a limit ahead.
         let highest = |along_m: f64| own.permitted_acceleration_mps2(along_m, state.speed_mps, scene.step_s);
         let highest_mps2 = places_m.and_then(|places_m| least(places_m.map(highest)));

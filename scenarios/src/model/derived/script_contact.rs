@@ -6,7 +6,7 @@ use interplay_planners::plan::certificate::overlap_m;
 use interplay_planners::rules::RoadRules;
 use interplay_planners::scene::Knowledge;
 use interplay_planners::scene::inferred_futures::InferredFutures;
-use interplay_planners::{Agent, Drive, Driver, DriverKind, Goal, Input, Scene};
+use interplay_planners::{Agent, Driver, DriverKind, Goal, Input, Scene};
 
 use crate::model::scenario::{Scenario, Vehicle};
 use crate::text::error::quoted;
