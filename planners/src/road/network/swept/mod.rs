@@ -250,16 +250,19 @@ impl NewLine {
         let legs = plain.legs.iter().map(|leg| moved(leg, |along_m| self.new_m(old, along_m))).collect();
         let mut route = Route::curved(self.line.clone(), right, left, half.clone());
         (route.legs, route.same_direction) = (legs, same_direction);
-        route.cover(&lines, turner, width_m);
+        let is_kept: Vec<bool> = places.iter().map(|[_, off_m]| *off_m == 0.0).collect();
+        route.cover(&lines, &is_kept, turner, width_m);
         route.plain = Some(Arc::new(plain));
         route
     }
 }
 
 impl Route {
-    /// Widens its lane from its lines to what the body covers.
-    fn cover(&mut self, [right, left]: &[Profile; 2], turner: &Turner, width_m: f64) {
-        let count = (self.end_m() / (EDGE_SPACING * width_m)).ceil().max(2.0);
+    /// Widens its lane from its lines to what the body covers. Where it is not kept, the route meets others only on what that is.
+    fn cover(&mut self, [right, left]: &[Profile; 2], is_kept: &[bool], turner: &Turner, width_m: f64) {
+        let count = (is_kept.len() - 1) as f64;
+        let half = self.half_width.clone();
+        let mut covered_m = vec![0.0_f64; is_kept.len()];
         let along_m = |place: usize| self.end_m() * place as f64 / count;
         let mut lines: Vec<[f64; 2]> =
             (0..=count as usize).map(|place| [right.value(along_m(place)), left.value(along_m(place))]).collect();
@@ -267,9 +270,10 @@ impl Route {
             for corner in corners {
                 let at = self.centre.project(*corner, Some(near_m));
                 let place = (at.along_m / self.end_m() * count).clamp(0.0, count);
-                for line in &mut lines[place as usize..=place.ceil() as usize] {
-                    line[0] = line[0].min(at.across_m - BESIDE_BODY * width_m);
-                    line[1] = line[1].max(at.across_m + BESIDE_BODY * width_m);
+                for place in place as usize..=place.ceil() as usize {
+                    lines[place][0] = lines[place][0].min(at.across_m - BESIDE_BODY * width_m);
+                    lines[place][1] = lines[place][1].max(at.across_m + BESIDE_BODY * width_m);
+                    covered_m[place] = covered_m[place].max(at.across_m.abs() + BESIDE_BODY * width_m);
                 }
             }
         });
@@ -278,9 +282,9 @@ impl Route {
             widened(places, sign)
         };
         let [right, left] = [edge(0, -1.0), edge(1, 1.0)];
-        let halves = (0..=count as usize).map(|place| {
+        let halves = is_kept.iter().zip(&covered_m).enumerate().map(|(place, (is_kept, covered_m))| {
             let at_m = along_m(place);
-            [at_m, left.value(at_m).max(-right.value(at_m))]
+            [at_m, if *is_kept || *covered_m == 0.0 { half.value(at_m) } else { *covered_m }]
         });
         self.half_width = widened(halves.collect(), 1.0);
         let centre = self.centre.clone();
