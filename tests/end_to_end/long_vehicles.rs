@@ -71,7 +71,7 @@ fn lorries_and_buses_come_round_junctions_and_rings() {
 fn the_smallest_radius_that_is_named_works() {
     let road = |radius_m: f64| format!("{{ kind = \"t-junction\", turn_radius_m = {radius_m:.1} }}");
     let said = |radius_m: f64| remarks(&scenario(&turning(&road(radius_m), ["east-in", "south-out"], "bus", "human")));
-    let tight = said(6.0);
+    let tight = said(7.0);
     assert!(tight.contains("is too tight for the 12.1 m of vehicle `ego`"), "{tight}");
     let named = tight.split("road.turn_radius_m = ").nth(1).and_then(|rest| rest.split('`').next());
     let named_m: f64 = named.and_then(|radius_m| radius_m.parse().ok()).unwrap_or_else(|| panic!("{tight}"));
@@ -124,7 +124,7 @@ fn a_script_that_leads_through_an_obstacle_is_remarked() {
              \"east\"\nalong_m = 80.0\n"
         ))
     };
-    let through = remarks(&street(""));
+    let through = remarks(&street("{ from_s = 1.0, speed_mps = 8.0 }"));
     assert!(through.contains("the script of `van` leads through `parked`"), "{through}");
     for script in ["{ from_s = 2.0, lateral_m = 3.5 }", "{ from_s = 3.0, speed_mps = 0.0 }"] {
         assert!(!remarks(&street(script)).contains("leads through"), "{script}");

@@ -7,7 +7,7 @@
 //!
 //! - its line is that of the mass centre of a body whose rear axle follows the path of [`path`],
 //! - its edges are those of the paved area ([`area`]): oncoming lanes and the other lanes of a junction belong to it,
-//! - its own lane is what the body covers, so that routes of others which it covers, too, meet it there ([`conflicts`](super::conflicts)).
+//! - its own lane is what the body covers, so that routes of others which it covers, too, meet it there (`conflicts`).
 //!
 //! What others drive on and it covers only because it swings out, it takes while no vehicle comes
 //! ([`Route::set_of`]).
