@@ -29,7 +29,6 @@ const KNOWN_FAILURES: &[(&str, &str, &str)] = &[
     ("parked-both-net", "negotiation", "the last of three is past the rows after 42 s only"),
     ("parked-both-net", "game", "the last of three is past the rows after 44 s only"),
     ("double-drop", "human", "drivers brake fully for those who want in"),
-    ("handover-beside-middle", "human", "a driver that takes over beside the middle stays there"),
 ];
 
 const ALL_KINDS: &[&str] = &["human", "idm", "conservative", "negotiation"];

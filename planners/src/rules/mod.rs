@@ -14,6 +14,8 @@
 //! - while a vehicle is in the conflict, or past the own line towards it,
 //! - where the first to arrive goes first, while a vehicle waits that came before.
 //!
+//! Into the lane beside it, as from an acceleration lane, a vehicle merges without standing (`merging`).
+//!
 //! A vehicle that is past its line, or could no longer stop before it, goes on. Where vehicles wait for one another in a circle, the
 //! first to arrive goes; of two who arrive at once, the one to the right of the other, and else by the direction in which it comes.
 
@@ -22,6 +24,7 @@ pub(crate) mod giving_way;
 mod keep_clear;
 mod lane;
 mod lights;
+mod merging;
 mod obliged;
 pub(crate) mod obstacle;
 mod overtaking;
@@ -32,6 +35,7 @@ mod waiting;
 mod wrong_way;
 
 pub(crate) use arrivals::Arrivals;
+pub use merging::Merging;
 pub(crate) use obliged::Obliged;
 
 use std::collections::BTreeMap;
@@ -177,6 +181,10 @@ fn held([own, their]: [&Arrivals; 2], users: &[Obliged<'_>], vehicle: usize, lig
             if lights_m[by].is_some_and(|line_m| line_m <= conflict.their_m[0]) {
                 continue;
             }
+            // Into the lane beside it merges without standing.
+            if merging::is_from_beside(ego, other.agent, conflict) && !is_standing(other.agent) {
+                continue;
+            }
             let arrived = Arrived {
                 own: own.has_arrived(ego),
                 their: their.has_arrived(other.agent),
@@ -220,8 +228,8 @@ fn asked(arrivals: &Arrivals, user: &Obliged<'_>, users: &[Obliged<'_>], holds: 
     let stop_line_m = nearest_m.map(|line_m| line_m - before_m);
     let keeps_clear_behind =
         clear.filter(|(line_m, _)| Some(*line_m) == nearest_m).map(|(_, ahead)| ahead.name.clone());
-    let are_kept = user.keeps_rules;
-    RoadRules { are_kept, stays_in_lane, stop_line_m, waits_for, keeps_clear_behind, ..RoadRules::default() }
+    let (are_kept, merging) = (user.keeps_rules, merging::merging(user, users));
+    RoadRules { are_kept, stays_in_lane, stop_line_m, waits_for, keeps_clear_behind, merging, ..RoadRules::default() }
 }
 
 /// What is asked where a road has no signs and no lanes that meet: to drive no faster than one wants in order to be first.

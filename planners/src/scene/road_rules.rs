@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use crate::rules::Merging;
+
 /// Whether a vehicle keeps the rules of the road: speed limits, stop signs and right of way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -62,6 +64,8 @@ pub struct RoadRules {
     pub passes: Option<Obstacle>,
     /// The vehicle ahead behind which it stays, of a driver who sees the motion of the others only.
     pub follows: Option<Followed>,
+    /// When it may be where it joins the way of others from the lane beside; none if nothing holds it.
+    pub merging: Option<Merging>,
     /// Whom it waits for there; empty where a sign alone holds it.
     pub waits_for: Vec<String>,
 }

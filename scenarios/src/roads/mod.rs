@@ -133,6 +133,17 @@ impl Default for Road {
 }
 
 impl Road {
+    /// The radius of turns of a junction, its key and its value \[m\]; `None` where no key states it.
+    pub(crate) fn turn_radius(&mut self) -> Option<(&'static str, &mut f64)> {
+        match self {
+            Road::Roundabout(ring) => Some(("radius_m", &mut ring.radius_m)),
+            Road::TJunction(form) => Some(("turn_radius_m", &mut form.turn_radius_m)),
+            Road::Crossing(form) => Some(("turn_radius_m", &mut form.turn_radius_m)),
+            Road::AllWayStop(form) => Some(("turn_radius_m", &mut form.turn_radius_m)),
+            _ => None,
+        }
+    }
+
     pub(crate) const DEFAULT_KIND: &'static str = "lanes";
     /// The kinds with parallel lanes; the others are networks.
     pub(crate) const PARALLEL_KINDS: [&'static str; 4] = ["lanes", "ramp-merge", "intersection", "curve"];

@@ -12,7 +12,7 @@
 
 use super::Settings;
 use crate::drivers::lanes::Leader;
-use crate::drivers::lanes::{RoadLanes, follower, leader};
+use crate::drivers::lanes::{RoadLanes, at, follower, is_in, leader};
 use crate::scene::relation::is_standing;
 use crate::{Agent, Scene};
 
@@ -23,19 +23,36 @@ pub(super) struct LaneChoice {
     pub incentive_mps2: f64,
 }
 
-/// The lane to drive in: `now`, or a neighbour that pays. A change under way is finished first.
-pub(super) fn choose(scene: &Scene, settings: &Settings, now: usize) -> LaneChoice {
+/// A vehicle that comes into the lane beside within this time is looked at, of real vehicles \[s\],
+const LOOK_AHEAD_S: f64 = 3.0;
+/// and it is beside the own one up to this gap between bumpers, of real vehicles \[m\].
+const BESIDE_GAP_M: f64 = 2.0;
+/// Of the way to the other lane, a vehicle turns back from a change up to this share of the width of a lane.
+const TURNING_BACK: f64 = 0.3;
+
+/// The lane to drive in: `now`, or a neighbour that pays. A change under way is finished first, unless the lane is taken at its begin.
+/// Beside itself it looks at all `others`, those too whose ways only join its own.
+pub(super) fn choose(scene: &Scene, others: &[Agent], settings: &Settings, now: usize) -> LaneChoice {
     let (mobil, lanes) = (&settings.mobil, RoadLanes::of_road(scene, settings.mobil.lane_width_m));
     let off_centre = scene.ego.route.across(scene.ego.state.position()) - lanes.centre_m(now);
     let goal = lanes.at(scene.ego.route.across(scene.goal.target.position()));
     let mut best = LaneChoice { lane: now, incentive_mps2: f64::NEG_INFINITY };
     if off_centre.abs() > 0.25 * lanes.width_m() {
+        let here_m = scene.ego.route.across(scene.ego.state.position());
+        let nearest = lanes.at(here_m);
+        let may_turn_back = (here_m - lanes.centre_m(nearest)).abs() < TURNING_BACK * lanes.width_m();
+        if nearest != now && may_turn_back && is_taken(scene, others, &lanes, now) {
+            return LaneChoice { lane: nearest, incentive_mps2: 0.0 };
+        }
         return LaneChoice { incentive_mps2: 0.0, ..best };
     }
     let beside = [now.checked_sub(1), Some(now + 1).filter(|lane| *lane < lanes.count())].into_iter().flatten();
     // A driver does not change to a lane that it will have to leave again.
     for lane in beside.filter(|lane| lanes.end_m(*lane).is_none()) {
         let nearer = if lane.abs_diff(goal) < now.abs_diff(goal) { 1.0 } else { -1.0 };
+        if is_taken(scene, others, &lanes, lane) {
+            continue;
+        }
         let change = Change { scene, settings, lanes, now, lane };
         let advantage = change.advantage() + nearer * mobil.bias_mps2 - mobil.threshold_mps2;
         let incentive_mps2 = if change.is_safe() { advantage } else { -mobil.threshold_mps2 };
@@ -44,6 +61,27 @@ pub(super) fn choose(scene: &Scene, settings: &Settings, now: usize) -> LaneChoi
         }
     }
     best
+}
+
+/// Whether a vehicle is expected in a lane right beside the own one, which keeps its speed. Only a driver that sees motion expects it.
+fn is_taken(scene: &Scene, others: &[Agent], lanes: &RoadLanes, lane: usize) -> bool {
+    let Scene { ego, knowledge, step_s, .. } = scene;
+    let ratio = ego.body.real_ratio();
+    let steps = (LOOK_AHEAD_S * ratio.sqrt() / step_s).ceil() as usize;
+    let (own_m, reach_m) = (ego.route.along(ego.state.position()), BESIDE_GAP_M * ratio);
+    let comes = |other: &Agent| {
+        (0..=steps).any(|t| {
+            let there = ego.route.locate(at(other, t).position(), None);
+            let lead_m = there.along_m - own_m - ego.state.speed_mps * step_s * t as f64;
+            let beside_m = if lead_m > 0.0 {
+                lead_m - ego.body.front_m - other.body.rear_m
+            } else {
+                -lead_m - ego.body.rear_m - other.body.front_m
+            };
+            beside_m < reach_m && is_in(scene, lanes, lane, other, t)
+        })
+    };
+    knowledge.is_of_motion() && others.iter().any(|other| !other.is_obstacle && comes(other))
 }
 
 /// A change of lane in question.

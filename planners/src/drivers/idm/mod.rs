@@ -19,7 +19,7 @@ use serde_json::{Map, Value as Json, json};
 use crate::drivers::drive::StandardReplacement;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::lanes::{RoadLanes, leader};
-use crate::road::network::ConflictKind;
+use crate::road::network::{ConflictKind, Precedence, RouteConflict};
 use crate::rules::obstacle::ObstacleMemory;
 use crate::rules::right_of_way::ArrivalMemory;
 use crate::scene::inferred_futures::InferredFutures;
@@ -146,12 +146,21 @@ impl Drive for Idm {
         let minded = with_others(&whole, is_minded);
         let lanes = RoadLanes::of_road(&minded, self.settings.mobil.lane_width_m);
         let now = self.lane(&minded, &lanes);
-        let choice = mobil::choose(&minded, &self.settings, now);
+        let choice = mobil::choose(&minded, &scene.others, &self.settings, now);
         self.lane_centre_m = Some(lanes.centre_m(choice.lane));
         let line_m = seen.ego.rules.stop_line_m;
         let from_to = [now, choice.lane];
-        let motion =
-            Motion { settings: &self.settings, scene: &minded, lanes, from_to, line_m, passed: passed.as_ref() };
+        let joins = |other: &Agent| has_to_let_go_first(&minded.ego, other);
+        let owed = minded.others.iter().any(joins).then(|| with_others(&minded, |other| !joins(other)));
+        let motion = Motion {
+            settings: &self.settings,
+            scene: &minded,
+            owed: owed.as_deref(),
+            lanes,
+            from_to,
+            line_m,
+            passed: passed.as_ref(),
+        };
         let mut trajectory = motion.driven();
         // Who has begun to pass goes on unless it would touch.
         let spaces = |obstacle: &Obstacle| if was_passing.as_ref() == Some(&obstacle.name) { 0.0 } else { 1.0 };
@@ -159,7 +168,7 @@ impl Drive for Idm {
         if let Some(obstacle) = passed.as_ref().filter(is_touched) {
             let behind_m = obstacle.line_m(&whole);
             let line_m = Some(line_m.map_or(behind_m, |line_m: f64| line_m.min(behind_m)));
-            trajectory = Motion { scene: &whole, line_m, passed: None, ..motion }.driven();
+            trajectory = Motion { scene: &whole, owed: None, line_m, passed: None, ..motion }.driven();
         }
         let ahead = leader(&minded, &lanes, choice.lane, &minded.ego.state, 0);
         let mut diagnostics = vec![LANE.is(choice.lane as f64), INCENTIVE.is(choice.incentive_mps2)];
@@ -198,6 +207,12 @@ fn along_the_road(scene: &Scene) -> Cow<'_, Scene> {
         |other: &Agent| matches!(ego.relation(other), Relation::Conflict(at) if at.kind == ConflictKind::Merging);
     let joins_ahead = |other: &Agent| ego.limits.comfort.is_some() && joins(other) && is_on_strip(ego, other);
     with_others(scene, |other| ego.relation(other) == Relation::Alongside || joins_ahead(other))
+}
+
+/// Whether another vehicle joins the way of one who goes first, and is not in its lane yet.
+fn has_to_let_go_first(ego: &Agent, other: &Agent) -> bool {
+    let joins = |at: &RouteConflict| at.kind == ConflictKind::Merging && at.precedence == Precedence::Own;
+    ego.limits.comfort.is_some() && matches!(ego.relation(other), Relation::Conflict(at) if joins(at))
 }
 
 /// The scene with only those others for which a condition holds.

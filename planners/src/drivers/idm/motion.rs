@@ -17,11 +17,21 @@ const AIM: f64 = 1.1;
 /// Distance that a driver looks ahead, as a multiple of the way on which comfortable braking builds up.
 const LOOKING_AHEAD: f64 = 0.75;
 
+/// Braking with which a driver lets a vehicle in that has to let it go first, until it is so much slower than it wants, of real vehicles
+/// \[m/s²\], \[m/s\].
+const COURTESY_MPS2: f64 = 1.0;
+const COURTESY_MPS: f64 = 3.0;
+
+/// Time in which it comes to the speed at which it waits for its gap, of real vehicles \[s\].
+const MERGING_S: f64 = 1.5;
+
 /// How a driver drives.
 pub(super) struct Motion<'a> {
     pub settings: &'a Settings,
     /// The vehicles that it follows: all on the same road except those that it passes.
     pub scene: &'a Scene,
+    /// The same without those who have to let it go first and are not in its lane yet, if there are any.
+    pub owed: Option<&'a Scene>,
     pub lanes: RoadLanes,
     /// The lane it is in, and the one it drives in or changes to.
     pub from_to: [usize; 2],
@@ -78,6 +88,18 @@ impl Motion<'_> {
             places_m.and_then(|places_m| least(places_m.map(|along_m| own.permitted_speed_mps(along_m))));
         let wanted_mps = permitted_mps.map_or(wanted_mps, |permitted_mps| permitted_mps.min(wanted_mps));
         let acceleration = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
+        let acceleration = self.owed.map_or(acceleration, |owed| {
+            let taken = leader(owed, lanes, to, state, t);
+            let left = if from == to { taken } else { leader(owed, lanes, from, state, t) };
+            let alone = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
+            let lost_mps = wanted_mps - state.speed_mps;
+            let is_slow = lost_mps > COURTESY_MPS * own.body.real_ratio().sqrt();
+            acceleration.max(alone.min(if is_slow { 0.0 } else { -COURTESY_MPS2 }))
+        });
+        // It slows down evenly for its gap.
+        let merging_mps2 =
+            own.merging_speed_mps().map(|mps| (mps - state.speed_mps) / (MERGING_S * own.body.real_ratio().sqrt()));
+        let acceleration = merging_mps2.map_or(acceleration, |merging_mps2| acceleration.min(merging_mps2));
         // On a free road the model brakes too weakly for a limit ahead.
         let highest = |along_m: f64| own.permitted_acceleration_mps2(along_m, state.speed_mps, scene.step_s);
         let highest_mps2 = places_m.and_then(|places_m| least(places_m.map(highest)));
