@@ -67,11 +67,6 @@ const KNOWN_FAILURES: &[(&str, &str, &str)] = &[
         "assertive drivers neither overtake nor return to the middle of their lane",
     ),
     ("handover-beside-middle", "human", "a driver that takes over beside the middle stays there"),
-    (
-        "steering-rate-fork",
-        "conservative",
-        "plans bound the steering rate by comfort only, and the motion by the limit",
-    ),
     ("amber-stop", "human", "the vehicle behind creeps towards the next one and does not come to rest"),
 ];
 
