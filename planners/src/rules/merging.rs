@@ -17,6 +17,7 @@ use super::obliged::Obliged;
 use crate::Agent;
 use crate::road::network::{ConflictKind, Precedence, RouteConflict};
 use crate::rules::giving_way::{ENTERING_SHARE, front_m, length_m, time_s};
+use crate::scene::road_rules::Merging;
 
 /// Ways that meet at a smaller angle than this run side by side before \[rad\].
 const BESIDE_RAD: f64 = 0.2;
@@ -30,17 +31,6 @@ const LAG_BRAKING_MPS2: f64 = 1.5;
 const LEAST_MPS: f64 = 1.0;
 /// Gaps are chosen this long before the ways meet, of real vehicles \[s\].
 const EARLY_S: f64 = 20.0;
-
-/// When a vehicle may be where its way joins that of others.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Merging {
-    /// Behind whom it falls in.
-    pub behind: String,
-    /// How far along its route the ways meet \[m\].
-    pub meeting_m: f64,
-    /// In what time it may be there \[s\].
-    pub in_s: f64,
-}
 
 /// Whether a vehicle joins the way of others from the lane beside, and lets them go first.
 pub(super) fn is_from_beside(ego: &Agent, other: &Agent, conflict: &RouteConflict) -> bool {
@@ -119,12 +109,4 @@ fn has_room_behind(ego: &Agent, behind: Option<&Passing<'_>>, in_s: f64, way_m: 
         + TIME_GAP_S * ratio.sqrt() * speed_mps
         + slower_mps * slower_mps / (2.0 * LAG_BRAKING_MPS2);
     -(beyond_m + speed_mps * in_s) - length_m(ego) >= needed_m
-}
-
-impl Agent {
-    /// The speed that it does not exceed for now, so that there is room when it joins the way of others \[m/s\]; none if nothing holds it.
-    pub(crate) fn merging_speed_mps(&self) -> Option<f64> {
-        let Merging { meeting_m, in_s, .. } = self.rules.merging.as_ref()?;
-        Some(self.state.speed_mps.min((meeting_m - front_m(self)).max(0.0) / in_s.max(1e-3)))
-    }
 }

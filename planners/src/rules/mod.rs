@@ -35,7 +35,6 @@ mod waiting;
 mod wrong_way;
 
 pub(crate) use arrivals::Arrivals;
-pub use merging::Merging;
 pub(crate) use obliged::Obliged;
 
 use std::collections::BTreeMap;
@@ -45,7 +44,7 @@ use crate::rules::giving_way::{Arrived, Pair, can_stop, signed_lines, stopping_d
 use crate::rules::obstacle::{Manoeuvre, ObstacleMemory};
 use crate::rules::overtaking::Overtaking;
 use crate::scene::relation::is_standing;
-pub use crate::scene::road_rules::{Obstacle, RoadRules, RuleKeeping};
+pub use crate::scene::road_rules::{Merging, Obstacle, RoadRules, RuleKeeping};
 use waiting::Hold;
 
 /// What has to be remembered of the past to judge the present: which vehicle has arrived where, and when.

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use crate::rules::Merging;
+use crate::Agent;
 
 /// Whether a vehicle keeps the rules of the road: speed limits, stop signs and right of way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -45,6 +45,17 @@ pub struct Followed {
     pub speeds_mps: Vec<f64>,
 }
 
+/// When a vehicle may be where its way joins that of others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Merging {
+    /// Behind whom it falls in.
+    pub behind: String,
+    /// How far along its route the ways meet \[m\].
+    pub meeting_m: f64,
+    /// In what time it may be there \[s\].
+    pub in_s: f64,
+}
+
 /// What the rules of the road ask of a vehicle now.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RoadRules {
@@ -74,5 +85,14 @@ impl RoadRules {
     /// Its front has to stay before one more line \[m\].
     pub(crate) fn stop_before(&mut self, line_m: f64) {
         self.stop_line_m = Some(self.stop_line_m.map_or(line_m, |nearest_m| nearest_m.min(line_m)));
+    }
+}
+
+impl Agent {
+    /// The speed that it does not exceed for now, so that there is room when it joins the way of others \[m/s\]; none if nothing holds it.
+    pub(crate) fn merging_speed_mps(&self) -> Option<f64> {
+        let Merging { meeting_m, in_s, .. } = self.rules.merging.as_ref()?;
+        let front_m = self.route.along(self.state.position()) + self.body.front_m;
+        Some(self.state.speed_mps.min((meeting_m - front_m).max(0.0) / in_s.max(1e-3)))
     }
 }

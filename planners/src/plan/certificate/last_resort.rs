@@ -205,7 +205,7 @@ mod tests {
         let mut scene = scene(ego.clone(), vec![ahead]);
         let straight = rolled_out(&scene, steady(&ego.state, 0.0, &ego.limits, 30, 0.1));
         let mut aside = straight.clone();
-        (1..31).for_each(|stage| aside.states[stage].y_m = -1.0 * stage as f64);
+        (1..31).for_each(|stage| aside.states[stage].y_m = -(stage as f64));
         for (knowledge, prefers_road) in [(Knowledge::Plans, false), (Knowledge::Motion { late_steps: 0 }, true)] {
             scene.knowledge = knowledge;
             let [straight, aside] = [&straight, &aside].map(|motion| Harm::measure(&scene, motion));

@@ -149,11 +149,8 @@ impl Obstacle {
         let [length_m, width_m] = self.reach_m;
         let usual = containing(length_m, width_m + KEPT_SIDE_SHARE * self.side_m(scene));
         let is_in_gap = self.side_m(scene) < SIDE_M * scene.ego.body.scale;
-        let ellipse = if is_in_gap {
-            usual.fitting(length_m, width_m, (self.pass_at_m - self.across_m).abs())
-        } else {
-            usual
-        };
+        let ellipse =
+            if is_in_gap { usual.fitting(length_m, width_m, (self.pass_at_m - self.across_m).abs()) } else { usual };
         KeepOut { vehicle: 0, ellipses: ellipses(ellipse, route, &centres), centres, penalty: Penalty::EXACT }
     }
 
