@@ -37,7 +37,7 @@ fn lorries_and_buses_come_round_junctions_and_rings() {
     let turns = [["west-in", "south-out"], ["east-in", "south-out"], ["south-in", "west-out"]];
     let roads = ["t-junction", "crossing", "all-way-stop"].iter().flat_map(|kind| {
         let at = |radius: &&str| format!("{{ kind = \"{kind}\", turn_radius_m = {radius} }}");
-        ["9.0", "12.0"].iter().map(move |radius| at(&radius)).collect::<Vec<_>>()
+        ["9.0", "12.0"].iter().map(at).collect::<Vec<_>>()
     });
     let mut cases: Vec<(String, [&str; 2], &str, &str)> = Vec::new();
     for (number, road) in roads.enumerate() {
