@@ -46,7 +46,7 @@ class Skipped(Exception):
 def needed(folder: Path, name: str) -> Path:
     """The clone of a project."""
     if not (folder / name).is_dir():
-        raise Skipped(f"there is no folder {name} in {folder}")
+        raise Skipped(f"{folder} does not have a folder {name}")
     return folder / name
 
 

@@ -40,7 +40,7 @@ impl PyBatch {
     }
 
     fn world(&self, world: usize) -> PyResult<&Environment> {
-        let message = || PyValueError::new_err(format!("there is no world {world}"));
+        let message = || PyValueError::new_err(format!("{world} is not the number of a world"));
         self.batch.environments().get(world).ok_or_else(message)
     }
 }

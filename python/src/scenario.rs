@@ -1,8 +1,8 @@
 //! Loads, changes and checks scenarios.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
-use interplay_common::random::hash_of;
 use interplay_planners::Driver;
 use interplay_scenarios::{Override, Registry, Scenario, embedded};
 use interplay_simulation::environment::RegisterPolicies;
@@ -144,7 +144,9 @@ impl PyScenario {
     }
 
     fn __hash__(&self) -> u64 {
-        hash_of(&self.to_toml()) ^ self.scenario.seed
+        let mut hasher = DefaultHasher::new();
+        (self.to_toml(), self.scenario.seed).hash(&mut hasher);
+        hasher.finish()
     }
 
     /// The scenario as a file: everything stated.

@@ -3,8 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::Agent;
-
 /// Whether a vehicle keeps the rules of the road: speed limits, stop signs and right of way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -85,14 +83,5 @@ impl RoadRules {
     /// Its front has to stay before one more line \[m\].
     pub(crate) fn stop_before(&mut self, line_m: f64) {
         self.stop_line_m = Some(self.stop_line_m.map_or(line_m, |nearest_m| nearest_m.min(line_m)));
-    }
-}
-
-impl Agent {
-    /// The speed that it does not exceed for now, so that there is room when it joins the way of others \[m/s\]; none if nothing holds it.
-    pub(crate) fn merging_speed_mps(&self) -> Option<f64> {
-        let Merging { meeting_m, in_s, .. } = self.rules.merging.as_ref()?;
-        let front_m = self.route.along(self.state.position()) + self.body.front_m;
-        Some(self.state.speed_mps.min((meeting_m - front_m).max(0.0) / in_s.max(1e-3)))
     }
 }

@@ -267,6 +267,12 @@ impl Road {
         Some(right_m + (lane as f64 + 0.5) * self.lane_width_m())
     }
 
+    /// Lateral coordinate of the centre of the lane of `branch` that is nearest to another one; `None` on a network \[m\].
+    pub(crate) fn nearest_lane_m(&self, branch: Branch, across_m: f64) -> Option<f64> {
+        let centres = (0..self.parallel_lanes()?.count).filter_map(|lane| self.lane_centre_m(branch, lane));
+        centres.min_by(|a, b| (a - across_m).abs().total_cmp(&(b - across_m).abs()))
+    }
+
     /// Lateral coordinate of the middle of `branch` \[m\].
     fn middle_m(&self, branch: Branch) -> f64 {
         let (sin, cos) = libm::sincos(self.heading_rad(branch));

@@ -38,7 +38,7 @@ impl StreetDraw {
     pub(super) fn fault(&self) -> Option<String> {
         let known: Vec<&str> = Street::kinds().collect();
         if let Some(unknown) = self.kinds.iter().find(|kind| !known.contains(&kind.as_str())) {
-            return Some(format!("there is no kind `{unknown}`; {}", suggestion(unknown, "the kinds are", &known)));
+            return Some(format!("`{unknown}` is not a kind; {}", suggestion(unknown, "the kinds are", &known)));
         }
         (!(0.0..=1.0).contains(&self.density)).then(|| format!("`density` is from 0 to 1, and not {}", self.density))
     }

@@ -1,7 +1,6 @@
 //! Quantities derived from a scenario: conflict zones, lane widths, schedules, and the effect of the seed.
 
 pub(crate) mod narrowest_lane;
-mod recorded_lane;
 pub(crate) mod script_contact;
 pub(crate) mod seed_dependence;
 pub(crate) mod swept_width;

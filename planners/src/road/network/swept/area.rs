@@ -4,7 +4,7 @@ use super::super::super::centre_line::CentreLine;
 use super::super::lane::{Lane, LaneUser};
 use super::super::road_network::RoadNetwork;
 use super::super::route::Route;
-use super::Turner;
+use super::turner::{MAX_EDGE_SLOPE, SPACING, Turner};
 
 /// Distance of the places beside a route that are looked at, in lane widths.
 const STEP_RATIO: f64 = 0.05;
@@ -33,7 +33,7 @@ impl Area {
         let reach_m = turner.body.front_m + turner.body.rear_m;
         let from_m = (window_m[0] - reach_m).max(0.0);
         let to_m = (window_m[1] + reach_m).min(route.end_m());
-        let spacing_m = 2.0 * super::SPACING * turner.body.wheelbase_m();
+        let spacing_m = 2.0 * SPACING * turner.body.wheelbase_m();
         let count = ((to_m - from_m) / spacing_m).ceil().max(1.0);
         let middle = route.centre.position(0.5 * (from_m + to_m), 0.0);
         let reach_m = 0.5 * (to_m - from_m) + (FARTHEST_RATIO + 1.0) * width_m;
@@ -44,7 +44,7 @@ impl Area {
             [-1.0, 1.0].map(|side| edge_m(&near, route, along_m, side, width_m))
         });
         let mut edges_m: Vec<[f64; 2]> = places.collect();
-        let most_m = super::MAX_EDGE_SLOPE * spacing_m;
+        let most_m = MAX_EDGE_SLOPE * spacing_m;
         let limit = |edges_m: &mut Vec<[f64; 2]>, from: usize, to: usize| {
             let [right_m, left_m] = edges_m[from];
             edges_m[to] = [edges_m[to][0].max(right_m - most_m), edges_m[to][1].min(left_m + most_m)];

@@ -14,6 +14,7 @@
 
 mod area;
 mod path;
+mod turner;
 
 use std::sync::Arc;
 
@@ -22,18 +23,11 @@ use super::super::profile::Profile;
 use super::edges::smooth_edge;
 use super::road_network::RoadNetwork;
 use super::route::{Route, RouteLeg};
-use crate::vehicle::{Bicycle, Body, Input, State, slip_on_curve_rad};
+use crate::vehicle::{Bicycle, Input, State, slip_on_curve_rad};
 use area::Area;
 use path::Path;
-
-/// What of a vehicle decides how it comes round a turn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turner {
-    /// Its body and axles.
-    pub body: Body,
-    /// Its largest steering angle \[rad\].
-    pub steering_max_rad: f64,
-}
+pub use turner::Turner;
+use turner::{MAX_EDGE_SLOPE, SPACING};
 
 /// A body may leave its lane by this share of the lane's width before its route differs: a few centimetres.
 const BEYOND_LANE_RATIO: f64 = 0.02;
@@ -45,14 +39,10 @@ const TOO_TIGHT_WIDTHS: f64 = 0.2;
 const REACH_WHEELBASES: f64 = 5.0;
 /// There the line is straight: mass centre and rear axle are beside it by less than this share of a lane's width.
 const STRAIGHT_RATIO: f64 = 1e-3;
-/// Distance of the places of a path, in wheelbases.
-const SPACING: f64 = 0.1;
 /// Length of a step of a kinematic run, in wheelbases.
 const STEP: f64 = 0.02;
 /// Distance of the places of new edges, in lane widths.
 const EDGE_SPACING: f64 = 0.25;
-/// Most by which a new edge moves sideways per metre.
-const MAX_EDGE_SLOPE: f64 = 1.0;
 /// The own lane is this much wider than what the body covers, in lane widths.
 const BESIDE_BODY: f64 = 0.06;
 /// Corrections of the steering of a kinematic run: the lateral error and the heading error vanish within about this many wheelbases.
@@ -182,7 +172,7 @@ struct NewLine {
 }
 
 impl NewLine {
-    /// The line along paths; `None` if there is no such line.
+    /// The line along paths; `None` without such a line.
     fn of(old: &CentreLine, paths: &[Path]) -> Option<NewLine> {
         let lines: Vec<CentreLine> = paths.iter().map(|path| path.line_of_mass_centre().ok()).collect::<Option<_>>()?;
         let mut sections: Vec<LineSection> = Vec::new();

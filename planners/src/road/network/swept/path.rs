@@ -11,8 +11,8 @@
 //! over points of both sides of the body, with the lane width `W` and `κ_max = tan δ_max/L`. The Hessian has seven diagonals.
 
 use super::super::super::centre_line::{CentreLine, CentreLineError, FrenetExpansion};
-use super::Turner;
 use super::area::Area;
+use super::turner::{SPACING, Turner};
 use crate::vehicle::Body;
 
 /// Weights of deviation, lane lines, edges and curvature.
@@ -121,7 +121,7 @@ impl<'a> Path<'a> {
         hardness: &[f64],
     ) -> Path<'a> {
         let Turner { body, steering_max_rad } = *turner;
-        let count = ((window_m[1] - window_m[0]) / (super::SPACING * body.wheelbase_m())).ceil().max(10.0) as usize;
+        let count = ((window_m[1] - window_m[0]) / (SPACING * body.wheelbase_m())).ceil().max(10.0) as usize;
         let spacing_m = (window_m[1] - window_m[0]) / count as f64;
         let frame = (0..=count).map(|place| {
             let at = line.at(window_m[0] + spacing_m * place as f64);
