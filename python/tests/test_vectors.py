@@ -166,12 +166,12 @@ def test_planners_of_ours_drive_all_worlds() -> None:
 
 
 def test_worlds_may_have_several_agents_in_rows() -> None:
-    agents = ["ego", "human"]
+    agents = ["ego", "crossing"]
     env = InterplayVectorEnv("intersection/nice", num_envs=2, agents=agents, autoreset_mode="SameStep")
     both = InterplayParallelEnv("intersection/nice", agents)
     seen, info = env.reset(seed=4)
     single = both.reset(seed=4)[0]
-    assert env.num_envs == 4 and info["present"].all() and equal(seen[1], single["human"])
+    assert env.num_envs == 4 and info["present"].all() and equal(seen[1], single["crossing"])
     absent = resets = 0
     for _ in range(80):
         was = info["present"]
