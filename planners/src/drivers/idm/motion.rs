@@ -73,8 +73,6 @@ impl Motion<'_> {
         let (own, wanted_mps) = (&scene.ego, scene.goal.target.speed_mps);
         // In the lane that it leaves it minds the vehicle ahead until it is out of it.
         let [from, to] = *from_to;
-        let taken = leader(scene, lanes, to, state, t);
-        let left = if from == to { taken } else { leader(scene, lanes, from, state, t) };
         let line = self.line_m.zip(along_m);
         let line = line.map(|(line_m, along_m)| Leader { gap_m: line_m - along_m - own.body.front_m, speed_mps: 0.0 });
         // Brakes take hold only after a while where jerk is bounded: a lower limit ahead counts already.
@@ -87,11 +85,14 @@ impl Motion<'_> {
         let permitted_mps =
             places_m.and_then(|places_m| least(places_m.map(|along_m| own.permitted_speed_mps(along_m))));
         let wanted_mps = permitted_mps.map_or(wanted_mps, |permitted_mps| permitted_mps.min(wanted_mps));
-        let acceleration = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
+        let among = |scene: &Scene| {
+            let taken = leader(scene, lanes, to, state, t);
+            let left = if from == to { taken } else { leader(scene, lanes, from, state, t) };
+            settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]))
+        };
+        let acceleration = among(scene);
         let acceleration = self.owed.map_or(acceleration, |owed| {
-            let taken = leader(owed, lanes, to, state, t);
-            let left = if from == to { taken } else { leader(owed, lanes, from, state, t) };
-            let alone = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
+            let alone = among(owed);
             let lost_mps = wanted_mps - state.speed_mps;
             let is_slow = lost_mps > COURTESY_MPS * own.body.real_ratio().sqrt();
             acceleration.max(alone.min(if is_slow { 0.0 } else { -COURTESY_MPS2 }))
