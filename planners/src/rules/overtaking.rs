@@ -25,6 +25,8 @@ const BEGIN_S: [f64; 2] = [0.7, 0.8];
 const SPARE_S: f64 = 0.8;
 /// A driver overtakes with this share of its strongest acceleration.
 const ACCELERATION_SHARE: f64 = 0.3;
+/// A vehicle that accelerates by more than this pulls away \[m/s²\].
+const PULLING_AWAY_MPS2: f64 = 0.3;
 /// A driver returns when it is ahead by this many lengths of its body; less room between two vehicles is too little to return.
 const AHEAD_LENGTHS: f64 = 1.5;
 /// Room that a lane has to have besides a body, for 1/10 scale cars \[m\].
@@ -133,8 +135,14 @@ fn row_ahead(scene: &Scene, is_under_way: bool) -> Option<Row<'_>> {
         row.speed_mps = row.speed_mps.max(other.state.speed_mps);
     }
     let is_slow = faster_mps(scene, &row) >= FASTER_MPS * ego.body.time_ratio();
-    let moves = !is_standing(first) || is_under_way;
+    let moves = is_under_way || !is_standing(first) && !pulls_away(scene, first);
     (is_slow && moves && !queue::waits(first, scene.others.iter())).then_some(row)
+}
+
+/// Whether a vehicle gains speed, as a bus that leaves its stop: it will not be slow.
+fn pulls_away(scene: &Scene, other: &Agent) -> bool {
+    let next = other.prediction.states.get(1).unwrap_or(&other.state);
+    next.speed_mps - other.state.speed_mps > PULLING_AWAY_MPS2 * scene.step_s
 }
 
 /// Whether a driver is so near to a row that it changes to the other lane.
@@ -178,10 +186,11 @@ fn is_met(scene: &Scene, row: &Row<'_>, way: Way, other_lane_m: f64) -> bool {
         if (at.across_m - other_lane_m).abs() >= reach_m {
             return false;
         }
-        if at.along_m + other.body.front_m < own_m - ego.body.rear_m {
-            return other.state.speed_mps > ego.state.speed_mps;
-        }
         let along_mps = other.state.speed_mps * libm::cos(other.state.heading_rad - at.heading_rad);
+        if at.along_m + other.body.front_m < own_m - ego.body.rear_m {
+            // An oncoming vehicle that has passed goes away.
+            return along_mps > ego.state.speed_mps;
+        }
         let rear_m = at.along_m - other.body.front_m.max(other.body.rear_m);
         let meets_m = own_m + way.length_m + along_mps.min(0.0).abs() * until_s;
         rear_m < meets_m && along_mps < row.speed_mps.max(ego.state.speed_mps)

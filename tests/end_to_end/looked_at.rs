@@ -1,4 +1,5 @@
-//! Who joins a road ahead of a vehicle with priority counts the time for its turn, and so does not stop half-way.
+//! Streets on which drivers were seen to do what people do not: to stop half-way into a lane, to overtake a bus that
+//! pulls away.
 
 use interplay_scenarios::{Override, load};
 use interplay_simulation::run::run;
@@ -32,4 +33,15 @@ fn no_driver_stops_half_way_into_the_lane_that_it_joins() {
         assert!(number("main", "peak_braking_mps2") < 3.0, "{case}: {}", number("main", "peak_braking_mps2"));
         assert!(report.vehicle("ego").expect("the ego").completed_s.is_some(), "{case}");
     });
+}
+
+/// Vehicles that had passed on the other lane counted as overtaking from behind, so that a driver stayed behind a slow one for good.
+#[test]
+fn a_driver_overtakes_a_slow_lorry_and_no_bus_that_leaves_its_stop() {
+    for (street, last) in [("streets/truck/6219", "truck"), ("streets/bus/6220", "ego")] {
+        let normal = Override::Set("vehicle.ego.driver={ kind = \"human\", style = \"normal\" }".to_owned());
+        let scenario = load(street, &[normal]).expect("a street");
+        let report = run("overtake", &scenario, Vec::new()).expect("a run");
+        assert_eq!(report.order_of_driven().last(), Some(&last), "{street}");
+    }
 }
