@@ -132,7 +132,7 @@ pub fn steady_inputs(scene: &Scene, acceleration_mps2: f64) -> Vec<Input> {
     let ego = &scene.ego;
     let mut inputs = steady(&ego.state, acceleration_mps2, &ego.limits, scene.horizon, scene.step_s);
     if ego.route.straight().is_none() {
-        let across_m = ego.route.across(ego.state.position());
+        let across_m = ego.across_m();
         let (model, mut state) = (scene.model(), ego.state);
         for input in &mut inputs {
             input.steering_rad = steer(ego, &state, across_m);

@@ -27,7 +27,7 @@ pub(super) fn stays_in_lane(user: &Obliged<'_>, users: &[Obliged<'_>]) -> bool {
     if !lane.contains(&ego.body, &ego.state, tolerance_m) || user.lateral_goal_m.abs() >= tolerance_m {
         return false;
     }
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     let others = users.iter().filter(|other| other.agent.name != ego.name);
     let places = others.map(|other| (other.agent, ego.route.locate(other.agent.state.position(), None)));
     let places: Vec<(&Agent, FrenetPoint)> = places.collect();

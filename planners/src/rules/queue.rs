@@ -33,7 +33,7 @@ pub(super) fn waits<'a>(agent: &'a Agent, others: impl Iterator<Item = &'a Agent
 
 /// Whether a line close ahead holds a vehicle, or whether it indicates.
 fn is_held(agent: &Agent) -> bool {
-    let front_m = agent.route.along(agent.state.position()) + agent.body.front_m;
+    let front_m = agent.along_m() + agent.body.front_m;
     let is_near = |line_m: f64| line_m - front_m < reach_m(agent, LINE_LENGTHS);
     agent.rules.stop_line_m.is_some_and(is_near) || agent.indicator.is_some()
 }

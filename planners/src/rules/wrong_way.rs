@@ -29,7 +29,7 @@ pub(super) fn evasion(scene: &Scene) -> Option<Evasion> {
     if !ego.route.is_in_network() {
         return None;
     }
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     let front_m = own_m + ego.body.front_m;
     let lines_m = scene.others.iter().filter_map(|other| meeting_m(scene, other, front_m));
     let line_m = lines_m.min_by(f64::total_cmp)?;

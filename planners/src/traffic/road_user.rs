@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::committed::{CommittedPlan, Origin};
 use super::presence::{Presence, Stay};
+use crate::drivers::reaction::Reaction;
 use crate::rules::Obliged;
 use crate::scene::record::Record;
 use crate::{Agent, Goal, Input, Plan};
@@ -25,6 +26,10 @@ pub struct RoadUser {
     pub reaction_s: f64,
     /// Whether it decides for itself where it drives: it does not follow a script, a record or inputs from outside.
     pub decides: bool,
+    /// What its driver is asked for.
+    pub asked_for: AskedFor,
+    /// The answer of a driver that has reacted; none before, and of others.
+    pub reaction: Option<Reaction>,
     /// Whether it keeps all rules of the road, speed limits too, and drives no faster than it wants.
     pub keeps_rules: bool,
     /// Whether a collision left it unfit to drive: it brakes, and its planner is not asked.
@@ -43,6 +48,18 @@ pub struct RoadUser {
     pub origin: Origin,
 }
 
+/// What the driver of a vehicle is asked for when vehicles plan.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AskedFor {
+    /// A plan over the horizon.
+    #[default]
+    Plan,
+    /// An input, if it sees the motion of the others only and tells no plan: it reacts and looks at nothing ahead.
+    Input,
+    /// Nothing: it is driven from outside.
+    Nothing,
+}
+
 impl RoadUser {
     /// A vehicle on the road that has not planned yet and knows the plans of the others.
     pub fn new(agent: Agent, goal: Goal, goes_first: bool) -> Self {
@@ -54,6 +71,8 @@ impl RoadUser {
             tells_plan: true,
             reaction_s: 0.0,
             decides: true,
+            asked_for: AskedFor::Plan,
+            reaction: None,
             keeps_rules: false,
             is_crashed: false,
             presence: Presence::Present,
@@ -70,9 +89,19 @@ impl RoadUser {
         self.presence.is_absent()
     }
 
+    /// Whether it reacts instead of planning.
+    pub fn is_reacting(&self) -> bool {
+        self.asked_for == AskedFor::Input && self.observes() && !self.tells_plan
+    }
+
     /// Whether it sees only the motion of the others, as people do; the drivers of the dissertation who infer plans see states.
     pub fn observes(&self) -> bool {
         !self.knows_plans && self.agent.limits.comfort.is_some()
+    }
+
+    /// Whether the rules of a network apply to it.
+    pub(super) fn is_judged(&self) -> bool {
+        self.keeps_rules && self.agent.route.is_in_network()
     }
 
     /// The vehicle as the rules see it that it keeps itself.
@@ -90,8 +119,11 @@ impl RoadUser {
         (self.reaction_s / step_s).round().max(0.0) as usize
     }
 
-    /// The first input of its plan.
+    /// The input of its reaction, or the first of its plan.
     pub fn planned_input(&self) -> Input {
+        if let Some(reaction) = &self.reaction {
+            return reaction.input;
+        }
         let planned = self.committed.trajectory.as_ref().and_then(|plan| plan.inputs.first());
         planned.copied().unwrap_or_default()
     }

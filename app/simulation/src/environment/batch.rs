@@ -100,6 +100,7 @@ impl EnvironmentBatch {
             return fault("all worlds have the same spaces");
         }
         let over = vec![false; environments.len()];
+        let environments = environments.into_iter().map(Environment::without_report).collect();
         Ok(EnvironmentBatch { environments, autoreset, over })
     }
 

@@ -9,6 +9,12 @@ use crate::measure::{Measures, VehicleMeasures};
 use crate::physics::gap_m;
 use crate::state::frame::Frame;
 
+/// The metrics of an agent of which its reward and its ending are made.
+pub(super) const METRICS: [&str; 3] = [EMERGENCIES, BROKEN, LEAVES_ROAD];
+const EMERGENCIES: &str = "emergency_braking";
+const BROKEN: &str = "rules_broken";
+const LEAVES_ROAD: &str = "leaves_road";
+
 /// How an episode ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
@@ -81,13 +87,13 @@ impl Episode {
         let (vehicle, measured) = (&scenario.vehicles[index], &measures.vehicles[index]);
         let now = Counts {
             along_m: measures.along_m()[index],
-            emergencies: measured.metrics.number("emergency_braking"),
-            broken: measured.metrics.number("rules_broken"),
+            emergencies: measured.metrics.number(EMERGENCIES),
+            broken: measured.metrics.number(BROKEN),
         };
         let wanted_mps = vehicle.target(&scenario.road).speed_mps;
         let full_mps = if wanted_mps > 0.0 { wanted_mps } else { vehicle.limits.speed_max_mps };
         let has_contact = frame.collisions.iter().any(|contact| contact.between.contains(&vehicle.name));
-        let is_off_road = measured.metrics.number("leaves_road") > 0.0;
+        let is_off_road = measured.metrics.number(LEAVES_ROAD) > 0.0;
         let reaches_goal = measured.completion.completed_s.is_some();
         let mut add = |term: RewardTerm, value: f64| self.terms[term as usize] += value;
         add(RewardTerm::Progress, (now.along_m - self.before.along_m) / full_mps);

@@ -7,8 +7,10 @@ use interplay_planners::{Driver, DriverKind, Planner};
 use interplay_scenarios::Scenario;
 
 use super::agent_interface::{AgentInterface, goes_on};
+use super::episode::METRICS;
 use super::{ActionSpace, DiscreteMeta, EnvironmentError, EnvironmentSettings, Episode, ObservationSpace};
 use crate::Simulation;
+use crate::measure::Subscriptions;
 use crate::report::Report;
 
 /// A scenario in which some vehicles are driven from outside, episode by episode.
@@ -70,6 +72,12 @@ impl Environment {
         })
     }
 
+    /// The same environment, whose episodes end without a full report.
+    pub(super) fn without_report(mut self) -> Environment {
+        self.settings.report = false;
+        self
+    }
+
     /// The scenario, with its agents driven from outside.
     pub fn scenario(&self) -> &Scenario {
         &self.scenario
@@ -121,7 +129,7 @@ impl Environment {
     }
 
     fn begin(&mut self, drawn: &Scenario) -> Result<(), EnvironmentError> {
-        let world = Simulation::new(drawn)?;
+        let world = Simulation::builder(drawn).subscribed_to(self.subscriptions()).build()?;
         let starts = drawn.starts();
         let (settings, horizon) = (&self.settings, drawn.horizon_steps);
         for seat in &mut self.seats {
@@ -130,6 +138,15 @@ impl Environment {
         }
         (self.world, self.time_s) = (Some(world), 0.0);
         self.look()
+    }
+
+    /// What the rewards and endings are made of; with a report, everything.
+    fn subscriptions(&self) -> Subscriptions {
+        if self.settings.report {
+            return Subscriptions::everything();
+        }
+        let agents: Vec<usize> = self.seats.iter().map(|seat| seat.vehicle).collect();
+        Subscriptions::only(&METRICS, &agents)
     }
 
     /// Updates the sensed scene of every agent.

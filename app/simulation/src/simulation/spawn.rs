@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
 use interplay_planners::rules::RoadRules;
-use interplay_planners::traffic::RoadUser;
+use interplay_planners::traffic::{AskedFor, RoadUser};
 use interplay_planners::{Agent, Goal, Input, State};
 use interplay_scenarios::{Scenario, Vehicle};
 
@@ -77,16 +77,27 @@ fn road_user(scenario: &Scenario, vehicle: &Vehicle, state: State) -> RoadUser {
         indicator: None,
         rules: RoadRules::default(),
         urgency: 1.0,
+        own_place: Default::default(),
     };
     RoadUser {
         knows_plans: vehicle.knows_plans(),
         tells_plan: vehicle.tells_plan(),
         reaction_s: vehicle.driver.reaction_s(),
         decides: vehicle.driver.is_vetoed(),
+        asked_for: asked_for(vehicle),
         keeps_rules: vehicle.keeps_rules(),
         presence: vehicle.stay.presence_at_start(),
         stay: vehicle.stay,
         record: vehicle.driver.record().map(Arc::new),
         ..RoadUser::new(agent, goal, vehicle.driver.goes_first())
+    }
+}
+
+/// What the driver of a vehicle is asked for at the first plan.
+fn asked_for(vehicle: &Vehicle) -> AskedFor {
+    match &vehicle.driver {
+        driver if driver.is_driven_from_outside() => AskedFor::Nothing,
+        driver if driver.reacts() && vehicle.sensing.is_none() => AskedFor::Input,
+        _ => AskedFor::Plan,
     }
 }

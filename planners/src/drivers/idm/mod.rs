@@ -8,6 +8,7 @@ mod car_following;
 pub mod diagnostics;
 mod mobil;
 mod motion;
+mod reacting;
 mod settings;
 
 pub use settings::{Mobil, Settings};
@@ -18,10 +19,12 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::drivers::drive::StandardReplacement;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
-use crate::drivers::lanes::{RoadLanes, leader};
+use crate::drivers::lanes::{RoadLanes, follower, leader};
+use crate::drivers::reaction::Reaction;
 use crate::road::network::ConflictKind;
 use crate::rules::obstacle::ObstacleMemory;
 use crate::rules::right_of_way::ArrivalMemory;
+use crate::scene::Moment;
 use crate::scene::inferred_futures::InferredFutures;
 use crate::scene::relation::{Relation, is_on_strip};
 use crate::scene::road_rules::Obstacle;
@@ -58,7 +61,9 @@ impl Idm {
         let end_m = prediction.states.last().map_or(here_m, |end| route.across(end.position()));
         let is_taken = |lane: &usize| {
             let from_m = |across_m: f64| (across_m - lanes.centre_m(*lane)).abs();
-            *lane == nearest || !scene.knowledge.is_of_motion() || from_m(end_m) < from_m(here_m)
+            // A driver that reacts has no plan that could be refused; it goes back from a vehicle beside it.
+            let is_open = prediction.states.is_empty() && !is_beside(scene, lanes, *lane);
+            *lane == nearest || !scene.knowledge.is_of_motion() || is_open || from_m(end_m) < from_m(here_m)
         };
         self.lane_centre_m.map(|centre_m| lanes.at(centre_m)).filter(is_near).filter(is_taken).unwrap_or(nearest)
     }
@@ -91,6 +96,10 @@ impl DriverKind for Settings {
 
     fn can_be_asked(&self) -> bool {
         false
+    }
+
+    fn reacts(&self) -> bool {
+        true
     }
 
     /// The values of the literature (Treiber, Hennecke and Helbing, 2000; for lane changes Kesting, Treiber and Helbing, 2007).
@@ -140,20 +149,28 @@ impl Drive for Idm {
         let minded = with_others(&whole, is_minded);
         let lanes = RoadLanes::of_road(&minded, self.settings.mobil.lane_width_m);
         let now = self.lane(&minded, &lanes);
-        let choice = mobil::choose(&minded, &self.settings, now);
+        let choice = mobil::choose(&minded, &self.settings, &lanes, now);
         self.lane_centre_m = Some(lanes.centre_m(choice.lane));
         let line_m = seen.ego.rules.stop_line_m;
         let from_to = [now, choice.lane];
-        let motion =
-            Motion { settings: &self.settings, scene: &minded, lanes, from_to, line_m, passed: passed.as_ref() };
-        let mut trajectory = motion.driven();
+        let motion = Motion {
+            settings: &self.settings,
+            own: &minded.ego,
+            wanted_mps: minded.goal.target.speed_mps,
+            step_s: minded.step_s,
+            lanes,
+            from_to,
+            line_m,
+            passed: passed.as_ref(),
+        };
+        let mut trajectory = motion.driven(&minded);
         // Who has begun to pass goes on unless it would touch.
         let spaces = |obstacle: &Obstacle| if was_passing.as_ref() == Some(&obstacle.name) { 0.0 } else { 1.0 };
         let is_touched = |obstacle: &&Obstacle| obstacle.is_touched_by(&whole, &trajectory, spaces(obstacle));
         if let Some(obstacle) = passed.as_ref().filter(is_touched) {
             let behind_m = obstacle.line_m(&whole);
             let line_m = Some(line_m.map_or(behind_m, |line_m: f64| line_m.min(behind_m)));
-            trajectory = Motion { scene: &whole, line_m, passed: None, ..motion }.driven();
+            trajectory = Motion { line_m, passed: None, ..motion }.driven(&whole);
         }
         let ahead = leader(&minded, &lanes, choice.lane, &minded.ego.state, 0);
         let mut diagnostics = vec![LANE.is(choice.lane as f64), INCENTIVE.is(choice.incentive_mps2)];
@@ -165,6 +182,12 @@ impl Drive for Idm {
         Ok(Plan { trajectory, diagnostics, events, ..Plan::default() })
     }
 
+    fn react(&mut self, moment: &Moment<'_>) -> Option<Reaction> {
+        let (reaction, lane_m) = reacting::answer(&self.settings, self.lane_centre_m, moment)?;
+        self.lane_centre_m = Some(lane_m);
+        Some(reaction)
+    }
+
     fn fork(&self) -> Option<Box<dyn Drive>> {
         Some(Box::new(self.clone()))
     }
@@ -173,6 +196,14 @@ impl Drive for Idm {
         let settings = *settings_of::<Settings>(settings)?;
         Some(Box::new(Idm { settings, ..self.clone() }))
     }
+}
+
+/// Whether a vehicle is beside the planning vehicle in a lane, or partly in it.
+fn is_beside(scene: &Scene, lanes: &RoadLanes, lane: usize) -> bool {
+    let reach_m =
+        |other: &Agent| 0.5 * (scene.ego.body.front_m + scene.ego.body.rear_m + other.body.front_m + other.body.rear_m);
+    let ahead = leader(scene, lanes, lane, &scene.ego.state, 0).is_some_and(|leader| leader.gap_m < 0.0);
+    ahead || follower(scene, lanes, lane).is_some_and(|other| -scene.ego.lead_of(other) < reach_m(other))
 }
 
 /// Whether an obstacle reaches into the path of the planning vehicle, or so near that it would touch it.

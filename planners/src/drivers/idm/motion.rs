@@ -6,7 +6,7 @@ use crate::drivers::lanes::{RoadLanes, leader};
 use crate::prediction::steering::{admissible, roll_out, steer, steer_over_step};
 use crate::rules::obstacle::swing_m;
 use crate::scene::road_rules::Obstacle;
-use crate::{Input, Scene, State, Trajectory};
+use crate::{Agent, Input, Scene, State, Trajectory};
 
 /// Way that the steering law needs to change its lateral place, as a multiple of a planner's.
 const SWINGS: f64 = 3.0;
@@ -18,10 +18,12 @@ const AIM: f64 = 1.1;
 const LOOKING_AHEAD: f64 = 0.75;
 
 /// How a driver drives.
+#[derive(Clone, Copy)]
 pub(super) struct Motion<'a> {
     pub settings: &'a Settings,
-    /// The vehicles that it follows: all on the same road except those that it passes.
-    pub scene: &'a Scene,
+    pub own: &'a Agent,
+    pub wanted_mps: f64,
+    pub step_s: f64,
     pub lanes: RoadLanes,
     /// The lane it is in, and the one it drives in or changes to.
     pub from_to: [usize; 2],
@@ -31,39 +33,43 @@ pub(super) struct Motion<'a> {
 }
 
 impl Motion<'_> {
-    /// The motion over the horizon of the scene.
-    pub fn driven(&self) -> Trajectory {
-        let (own, step_s) = (&self.scene.ego, self.scene.step_s);
-        let swing_m = SWINGS * swing_m(self.scene, self.scene.ego.state.speed_mps);
-        let lane_m = self.lanes.centre_m(self.from_to[1]);
-        let mut before = own.previous_input;
-        roll_out(self.scene, |t, state| {
-            // Straight roads have neither lines nor speed limits.
-            let along_m = own.route.straight().is_none().then(|| own.route.along(state.position()));
-            let front_m = along_m.map(|along_m| along_m + own.body.front_m);
-            let passed = self.passed.zip(front_m);
-            let beside_m =
-                |(obstacle, front_m): (&Obstacle, f64)| obstacle.lateral_m(front_m, lane_m, swing_m) - lane_m;
-            let lateral_m = lane_m + AIM * passed.map_or(0.0, beside_m);
-            let steering_rad = match along_m {
-                None => steer(own, state, lateral_m),
-                Some(_) => steer_over_step(own, state, lateral_m, step_s),
-            };
-            let wanted = Input { acceleration_mps2: self.acceleration_mps2(t, state, along_m), steering_rad };
-            let Input { acceleration_mps2, steering_rad } = own.comfortably(&before, wanted, state.speed_mps, step_s);
-            before = Input { acceleration_mps2: admissible(own, state, acceleration_mps2, step_s), steering_rad };
+    /// The motion over the horizon of a scene, whose others it follows.
+    pub fn driven(&self, scene: &Scene) -> Trajectory {
+        let mut before = self.own.previous_input;
+        roll_out(scene, |t, state| {
+            // In the lane that it leaves it minds the vehicle ahead until it is out of it.
+            let [from, to] = self.from_to;
+            let taken = leader(scene, &self.lanes, to, state, t);
+            let left = if from == to { taken } else { leader(scene, &self.lanes, from, state, t) };
+            before = self.input(state, &before, [left, taken]);
             before
         })
     }
 
-    /// What the model wants behind the vehicle ahead, within what is permitted.
-    fn acceleration_mps2(&self, t: usize, state: &State, along_m: Option<f64>) -> f64 {
-        let Motion { settings, scene, lanes, from_to, .. } = self;
-        let (own, wanted_mps) = (&scene.ego, scene.goal.target.speed_mps);
-        // In the lane that it leaves it minds the vehicle ahead until it is out of it.
-        let [from, to] = *from_to;
-        let taken = leader(scene, lanes, to, state, t);
-        let left = if from == to { taken } else { leader(scene, lanes, from, state, t) };
+    /// The input at a state after another one, behind what is ahead in the lane that it leaves and in the one that it takes.
+    pub fn input(&self, state: &State, before: &Input, ahead: [Option<Leader>; 2]) -> Input {
+        let (own, step_s) = (self.own, self.step_s);
+        let lane_m = self.lanes.centre_m(self.from_to[1]);
+        // Straight roads have neither lines nor speed limits.
+        let along_m = own.route.straight().is_none().then(|| own.route.along(state.position()));
+        let passed = self.passed.zip(along_m.map(|along_m| along_m + own.body.front_m));
+        let beside_m = |(obstacle, front_m): (&Obstacle, f64)| {
+            let swing_m = SWINGS * swing_m(own, own.state.speed_mps);
+            obstacle.lateral_m(front_m, lane_m, swing_m) - lane_m
+        };
+        let lateral_m = lane_m + AIM * passed.map_or(0.0, beside_m);
+        let steering_rad = match along_m {
+            None => steer(own, state, lateral_m),
+            Some(_) => steer_over_step(own, state, lateral_m, step_s),
+        };
+        let wanted = Input { acceleration_mps2: self.acceleration_mps2(state, along_m, ahead), steering_rad };
+        let Input { acceleration_mps2, steering_rad } = own.comfortably(before, wanted, state.speed_mps, step_s);
+        Input { acceleration_mps2: admissible(own, state, acceleration_mps2, step_s), steering_rad }
+    }
+
+    /// What the model wants behind the vehicles ahead, within what is permitted.
+    fn acceleration_mps2(&self, state: &State, along_m: Option<f64>, [left, taken]: [Option<Leader>; 2]) -> f64 {
+        let Motion { settings, own, wanted_mps, .. } = *self;
         let line = self.line_m.zip(along_m);
         let line = line.map(|(line_m, along_m)| Leader { gap_m: line_m - along_m - own.body.front_m, speed_mps: 0.0 });
         // Brakes take hold only after a while where jerk is bounded: a lower limit ahead counts already.
@@ -78,7 +84,7 @@ impl Motion<'_> {
         let wanted_mps = permitted_mps.map_or(wanted_mps, |permitted_mps| permitted_mps.min(wanted_mps));
         let acceleration = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
         // On a free road the model brakes too weakly for a limit ahead.
-        let highest = |along_m: f64| own.permitted_acceleration_mps2(along_m, state.speed_mps, scene.step_s);
+        let highest = |along_m: f64| own.permitted_acceleration_mps2(along_m, state.speed_mps, self.step_s);
         let highest_mps2 = places_m.and_then(|places_m| least(places_m.map(highest)));
         highest_mps2.map_or(acceleration, |highest_mps2| acceleration.min(highest_mps2))
     }

@@ -87,8 +87,7 @@ impl ObstacleMemory {
             self.passing = None;
             return None;
         };
-        let out_m =
-            scene.ego.route.across(scene.ego.state.position()) - scene.ego.route.across(scene.goal.target.position());
+        let out_m = scene.ego.across_m() - scene.ego.route.across(scene.goal.target.position());
         let is_out = out_m.abs() > OUT_OF_LANE_M * scene.ego.body.scale;
         // A driver that has begun to pass a row goes on to its next vehicle. Nor does it come back when a slow vehicle that it overtakes
         // stops.
@@ -129,10 +128,10 @@ impl ObstacleMemory {
     /// The nearest obstacle whose end is not passed yet.
     fn nearest(&self, scene: &Scene) -> Option<Obstacle> {
         let ego = &scene.ego;
-        let (own_m, wanted_mps) = (ego.route.along(ego.state.position()), scene.goal.target.speed_mps);
+        let (own_m, wanted_mps) = (ego.along_m(), scene.goal.target.speed_mps);
         let reach_m = LOOK_AHEAD_S * ego.body.time_ratio() * wanted_mps.max(ego.state.speed_mps) + ego.body.front_m;
         let goal_m = ego.route.across(scene.goal.target.position());
-        let here_m = ego.route.across(ego.state.position());
+        let here_m = ego.across_m();
         let candidates = scene.others.iter().filter(|other| is_standing(other) && !self.is_queueing(scene, other));
         let obstacles = candidates.filter_map(|other| {
             let at = ego.route.locate(other.state.position(), None);

@@ -25,12 +25,12 @@ pub(super) fn in_the_way<'a>(
     is_under_way: bool,
 ) -> Option<&'a Agent> {
     let ego = &scene.ego;
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     let room_m = obstacle.along_m[0] - own_m - ego.body.front_m;
     if is_under_way && ego.state.speed_mps * ego.state.speed_mps > 2.0 * STOPPING_MPS2 * room_m {
         return None;
     }
-    let swing_m = swing_m(scene, ego.state.speed_mps);
+    let swing_m = swing_m(ego, ego.state.speed_mps);
     // From where the driver leaves its lane to where its rear is back in it.
     let zone_m = [(obstacle.along_m[0] - swing_m).max(own_m), end_m + swing_m + ego.body.rear_m];
     let spare_s = if is_under_way { SPARE_UNDER_WAY_S } else { SPARE_S } * ego.body.time_ratio();
@@ -49,7 +49,7 @@ fn is_parked(other: &Agent) -> bool {
 pub(super) fn end_of_row_m(scene: &Scene, obstacle: &Obstacle) -> f64 {
     let ego = &scene.ego;
     let length_m = ego.body.front_m + ego.body.rear_m;
-    let room_m = swing_m(scene, SPEED_SHARE * scene.goal.target.speed_mps) + (1.0 + WAITING_LENGTHS) * length_m;
+    let room_m = swing_m(&scene.ego, SPEED_SHARE * scene.goal.target.speed_mps) + (1.0 + WAITING_LENGTHS) * length_m;
     let standing = scene.others.iter().filter(|other| is_standing(other)).filter_map(|other| {
         let at = ego.route.locate(other.state.position(), None);
         let is_in_row = (at.across_m - obstacle.across_m).abs() < 0.5 * (ego.body.width_m + other.body.width_m);
@@ -91,9 +91,9 @@ fn comes_into(scene: &Scene, other: &Agent, obstacle: &Obstacle, zone_m: [f64; 2
     let half_m = other.body.front_m.max(other.body.rear_m);
     let ends_m = [at.along_m, at.along_m + along_mps * until_s];
     let covered_m = [ends_m[0].min(ends_m[1]) - half_m, ends_m[0].max(ends_m[1]) + half_m];
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     // A vehicle behind in the own lane waits as well, and one that drives ahead in the same direction leaves.
-    let is_behind = at.along_m < own_m && (at.across_m - ego.route.across(ego.state.position())).abs() < reach_m;
+    let is_behind = at.along_m < own_m && (at.across_m - ego.across_m()).abs() < reach_m;
     let leaves = along_mps > ego.state.speed_mps && at.along_m > zone_m[1];
     covered_m[1] > zone_m[0] && covered_m[0] < zone_m[1] && !is_behind && !leaves
 }

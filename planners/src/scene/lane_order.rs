@@ -1,0 +1,221 @@
+//! The vehicles of straight roads by lanes, from rear to front, so that the vehicle ahead is found however far away it is.
+//!
+//! A road is cut lengthwise into bands, and each band lists the vehicles whose bodies reach into it by their arc length. A look into a lane
+//! is a binary search in each of its bands, and a walk that ends at the first vehicle that is at least partly in the lane.
+
+use crate::Agent;
+
+/// Bands per width of a 1/10 scale car's lane, so that a car is in two or three.
+const BAND_M: f64 = 0.18;
+/// Bands of a road are at most as many, so that a vehicle far away from it costs no memory.
+const MOST_BANDS: usize = 256;
+/// Straight roads whose headings differ by less run side by side, as relations of vehicles have it \[rad\].
+const SAME_ROAD_RAD: f64 = 0.1;
+
+/// A vehicle on a straight road.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct OnRoad {
+    /// Its row.
+    pub row: usize,
+    /// Arc length of its mass centre \[m\].
+    pub along_m: f64,
+    /// Lateral coordinate \[m\].
+    pub across_m: f64,
+    /// Front and rear of its body, from its mass centre \[m\].
+    pub ends_m: [f64; 2],
+    /// Width of its body \[m\].
+    pub width_m: f64,
+    /// Its speed \[m/s\].
+    pub speed_mps: f64,
+    /// Its last acceleration \[m/s²\].
+    pub acceleration_mps2: f64,
+    /// Whether it has no driver.
+    pub is_obstacle: bool,
+}
+
+/// The vehicles of one straight road.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Road {
+    heading_rad: f64,
+    /// From rear to front.
+    vehicles: Vec<OnRoad>,
+    /// Lateral coordinate at which the first band begins, and the width of each \[m\].
+    first_m: f64,
+    band_m: f64,
+    /// Numbers of `vehicles`, in their order.
+    bands: Vec<Vec<u32>>,
+    longest_m: f64,
+}
+
+/// All vehicles by their straight roads. Nothing where the vehicles of a run are not all on straight roads of clearly different directions.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LaneOrder {
+    roads: Vec<Road>,
+    /// Road and number of each row.
+    places: Vec<Option<(u32, u32)>>,
+}
+
+/// A strip of a road that is looked at: a lane, or the way of a body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Strip {
+    /// Lateral coordinate of its middle \[m\].
+    pub centre_m: f64,
+    /// Its width \[m\].
+    pub width_m: f64,
+}
+
+impl LaneOrder {
+    /// Sorts vehicles anew, by their rows; none are not on the road. Memory is kept from the last time.
+    pub(crate) fn sort<'a>(&mut self, agents: impl Iterator<Item = Option<&'a Agent>> + Clone) {
+        self.places.clear();
+        self.places.resize(agents.clone().count(), None);
+        self.roads.iter_mut().for_each(Road::clear);
+        let present = || agents.clone().enumerate().filter_map(|(row, agent)| Some((row, agent?)));
+        for (_, agent) in present() {
+            if agent.route.straight().is_none() || !self.has_road_of(agent) {
+                self.roads.clear();
+                return;
+            }
+        }
+        for (row, agent) in present() {
+            if let Some(road) = self.roads.iter_mut().find(|road| road.is_of(agent)) {
+                road.vehicles.push(OnRoad::of(row, agent));
+            }
+        }
+        for (number, road) in self.roads.iter_mut().enumerate() {
+            road.sort();
+            for (place, vehicle) in road.vehicles.iter().enumerate() {
+                self.places[vehicle.row] = Some((number as u32, place as u32));
+            }
+        }
+    }
+
+    /// Finds or adds the road of a vehicle; `false` if it runs at a small angle to another one.
+    fn has_road_of(&mut self, agent: &Agent) -> bool {
+        if self.roads.iter().any(|road| road.is_of(agent)) {
+            return true;
+        }
+        let heading_rad = heading_rad(agent);
+        let is_apart = |road: &Road| libm::cos(road.heading_rad - heading_rad) < libm::cos(SAME_ROAD_RAD);
+        let is_new = self.roads.iter().all(is_apart);
+        if is_new {
+            self.roads.push(Road { heading_rad, ..Road::default() });
+        }
+        is_new
+    }
+
+    /// The vehicle of a row on its road; none where roads are not known.
+    pub(crate) fn of(&self, row: usize) -> Option<OnStraightRoad<'_>> {
+        let (road, number) = (*self.places.get(row)?)?;
+        let road = self.roads.get(road as usize)?;
+        Some(OnStraightRoad { road, own: &road.vehicles[number as usize] })
+    }
+}
+
+impl OnRoad {
+    fn of(row: usize, agent: &Agent) -> OnRoad {
+        let at = agent.place();
+        OnRoad {
+            row,
+            along_m: at.along_m,
+            across_m: at.across_m,
+            ends_m: [agent.body.front_m, agent.body.rear_m],
+            width_m: agent.body.width_m,
+            speed_mps: agent.state.speed_mps,
+            acceleration_mps2: agent.previous_input.acceleration_mps2,
+            is_obstacle: agent.is_obstacle,
+        }
+    }
+}
+
+fn heading_rad(agent: &Agent) -> f64 {
+    agent.route.straight().map_or(f64::NAN, |corridor| corridor.heading_rad)
+}
+
+impl Road {
+    fn clear(&mut self) {
+        self.vehicles.clear();
+        self.bands.iter_mut().for_each(Vec::clear);
+    }
+
+    fn is_of(&self, agent: &Agent) -> bool {
+        self.heading_rad == heading_rad(agent)
+    }
+
+    fn sort(&mut self) {
+        self.vehicles.sort_by(|one, other| one.along_m.total_cmp(&other.along_m).then(one.row.cmp(&other.row)));
+        self.longest_m = self.vehicles.iter().map(|one| one.ends_m[1]).fold(0.0, f64::max);
+        let low_m = self.vehicles.iter().map(|one| one.across_m - 0.5 * one.width_m).fold(f64::INFINITY, f64::min);
+        let high_m = self.vehicles.iter().map(|one| one.across_m + 0.5 * one.width_m).fold(low_m, f64::max);
+        let widest_m = self.vehicles.iter().map(|one| one.width_m).fold(BAND_M, f64::max);
+        self.band_m = widest_m.max((high_m - low_m) / (MOST_BANDS - 1) as f64);
+        self.first_m = low_m;
+        let count = ((high_m - low_m) / self.band_m).floor() as usize + 1;
+        self.bands.resize(self.bands.len().max(count), Vec::new());
+        for number in 0..self.vehicles.len() {
+            let OnRoad { across_m, width_m, .. } = self.vehicles[number];
+            for band in self.bands_of(Strip { centre_m: across_m, width_m }) {
+                self.bands[band].push(number as u32);
+            }
+        }
+    }
+
+    /// The bands that a strip reaches into.
+    fn bands_of(&self, strip: Strip) -> std::ops::RangeInclusive<usize> {
+        let band = |lateral_m: f64| ((lateral_m - self.first_m) / self.band_m).floor().max(0.0) as usize;
+        let last = self.bands.len().saturating_sub(1);
+        band(strip.centre_m - 0.5 * strip.width_m).min(last)..=band(strip.centre_m + 0.5 * strip.width_m).min(last)
+    }
+}
+
+/// A vehicle on its straight road, among the others there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OnStraightRoad<'a> {
+    road: &'a Road,
+    pub own: &'a OnRoad,
+}
+
+impl<'a> OnStraightRoad<'a> {
+    /// The vehicle with the smallest gap ahead of its own front that is at least partly in a strip, among those that count, and that gap
+    /// between bumpers \[m\].
+    pub fn ahead(&self, strip: Strip, counts: impl Fn(&OnRoad) -> bool) -> Option<(&'a OnRoad, f64)> {
+        let (road, own) = (self.road, self.own);
+        let mut best: Option<(&OnRoad, f64)> = None;
+        for band in road.bands_of(strip) {
+            let numbers = road.bands.get(band).map_or(&[][..], Vec::as_slice);
+            let from = numbers.partition_point(|number| road.vehicles[*number as usize].along_m <= own.along_m);
+            for number in &numbers[from..] {
+                let other = &road.vehicles[*number as usize];
+                let ahead_m = other.along_m - own.along_m;
+                if best.is_some_and(|(_, gap_m)| ahead_m - road.longest_m - own.ends_m[0] > gap_m) {
+                    break;
+                }
+                let gap_m = ahead_m - other.ends_m[1] - own.ends_m[0];
+                if is_in(strip, other) && counts(other) && best.is_none_or(|(_, least_m)| gap_m < least_m) {
+                    best = Some((other, gap_m));
+                }
+            }
+        }
+        best
+    }
+
+    /// The nearest vehicle behind or beside it that is at least partly in a strip, among those that count.
+    pub fn behind(&self, strip: Strip, counts: impl Fn(&OnRoad) -> bool) -> Option<&'a OnRoad> {
+        let (road, own) = (self.road, self.own);
+        let mut best: Option<&OnRoad> = None;
+        for band in road.bands_of(strip) {
+            let numbers = road.bands.get(band).map_or(&[][..], Vec::as_slice);
+            let to = numbers.partition_point(|number| road.vehicles[*number as usize].along_m <= own.along_m);
+            let behind = numbers[..to].iter().rev().map(|number| &road.vehicles[*number as usize]);
+            let found = behind.filter(|other| other.row != own.row).find(|other| is_in(strip, other) && counts(other));
+            if let Some(found) = found.filter(|found| best.is_none_or(|best| found.along_m > best.along_m)) {
+                best = Some(found);
+            }
+        }
+        best
+    }
+}
+
+fn is_in(strip: Strip, other: &OnRoad) -> bool {
+    (other.across_m - strip.centre_m).abs() < 0.5 * (strip.width_m + other.width_m)
+}
