@@ -11,6 +11,9 @@ const RESERVE: f64 = 1.15;
 const STANDSTILL_LENGTHS: f64 = 0.15;
 /// Ratio to the comfortable braking above which a vehicle brakes as hard as it can.
 const MOST: f64 = 10.0;
+/// What a reacting driver leaves at least between itself and the one ahead when it counts how hard it has to brake, of real vehicles \[m\].
+/// Its model stops farther behind, and comes up to that place without end.
+const LEFT_M: f64 = 0.5;
 /// Ratio to the comfortable braking from which on a reacting driver brakes as hard as it needs, without regard to its model.
 const EMERGENCY: f64 = 2.0;
 
@@ -87,7 +90,7 @@ pub(crate) fn emergency_braking_mps2(ego: &Agent) -> Option<f64> {
 /// comfortably to a stop or as it does now, or keeps its speed \[m/s²\].
 pub(crate) fn braking_behind(ego: &Agent, gap_m: f64, their_mps: f64, their_acceleration_mps2: f64) -> f64 {
     let comfortable_mps2 = ego.limits.comfort.map_or(f64::INFINITY, |comfort| comfort.braking_mps2);
-    let room_m = gap_m - STANDSTILL_GAP_M * ego.body.scale;
+    let room_m = gap_m - LEFT_M * ego.body.real_ratio();
     let stopping = braking_behind_stopping(ego, room_m, their_mps, comfortable_mps2.max(-their_acceleration_mps2));
     stopping.max(braking_within(ego.state.speed_mps - their_mps, gap_m))
 }

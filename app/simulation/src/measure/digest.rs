@@ -60,7 +60,7 @@ impl Digest {
 
     /// Adds one tick, and the states at its end, to the digests.
     pub fn observe(&mut self, frame: &Frame, after: &[State]) {
-        for (vehicle, state) in frame.vehicles.iter().zip(after) {
+        for vehicle in &frame.vehicles {
             numbers(&mut self.sense, &vehicle.state.to_array());
             if let Some(side) = vehicle.indicator {
                 self.sense.update(&[u8::from(side == IndicatorSide::Left)]);
@@ -96,8 +96,14 @@ impl Digest {
 }
 
 fn trajectory(hasher: &mut Xxh3, trajectory: &Trajectory) {
-    trajectory.states.chunks(CHUNK / 4).for_each(|states| rows(hasher, states.iter().map(State::to_array)));
-    trajectory.inputs.chunks(CHUNK / 2).for_each(|inputs| rows(hasher, inputs.iter().map(Input::to_array)));
+    trajectory
+        .states
+        .chunks(CHUNK / 4)
+        .for_each(|states| rows(hasher, states.iter().map(|state: &State| state.to_array())));
+    trajectory
+        .inputs
+        .chunks(CHUNK / 2)
+        .for_each(|inputs| rows(hasher, inputs.iter().map(|input: &Input| input.to_array())));
 }
 
 /// How many numbers are hashed at once: the stream is the same for any, and updates are expensive.

@@ -23,8 +23,8 @@ impl Subscriptions {
     }
 
     /// The contacts, the states and their digest, the place of each vehicle on its route, and of these vehicles, which are indices in the
-    /// scenario's order, these metrics and whether they reach their goals. A report of such a run has nothing else: no other metrics, no passages, waits, plans and beliefs, and no digests
-    /// of the other phases.
+    /// scenario's order, these metrics and whether they reach their goals. A report of such a run has nothing else: no other metrics,
+    /// no passages, waits, plans and beliefs, and no digests of the other phases.
     pub fn only(metrics: &[&'static str], vehicles: &[usize]) -> Self {
         Subscriptions(Some(Selected { metrics: metrics.to_vec(), vehicles: vehicles.to_vec() }))
     }

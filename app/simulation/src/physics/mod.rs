@@ -152,7 +152,7 @@ pub fn step(
         is_absent: user.is_absent(),
         recorded: recorded(user, clock.within_s(1.0)),
     };
-    let moving: Vec<Moving> = road_users.iter().zip(&fleet.0).zip(&*footprints).map(moving).collect();
+    let moving: Vec<Moving<'_>> = road_users.iter().zip(&fleet.0).zip(&*footprints).map(moving).collect();
     let before: Vec<State> = moving.iter().map(|vehicle| vehicle.state).collect();
     frame.gap_m = gaps.begin(&before, moving.iter().map(|vehicle| vehicle.is_absent).collect());
     let (states, contacts) = match dynamic {

@@ -122,7 +122,8 @@ impl SimulationBuilder<'_> {
     ///
     /// # Errors
     /// [`RunError::Building`] if the scenario's building cannot be built; [`RunError::Loop`] if the order of two systems is ambiguous;
-    /// [`RunError::Threads`] if the system has no threads; [`RunError::UnknownState`] if a system names a component or resource that the world does not have.
+    /// [`RunError::Threads`] if the system has no threads; [`RunError::UnknownState`] if a system names a component or resource that the
+    /// world does not have.
     pub fn build(self) -> Result<Simulation, RunError> {
         let began = Instant::now();
         let SimulationBuilder { name, scenario, watchers, subscriptions, threads, extensions, initial } = self;
