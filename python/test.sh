@@ -54,7 +54,7 @@ try() {
     cp pyproject.toml "$there/pyproject.toml"
     (
         cd "$there/tests"
-        "$there/bin/python" -m pytest --quiet
+        INTERPLAY_EXAMPLES=$package/examples "$there/bin/python" -m pytest --quiet
         "$there/bin/python" -m mypy --strict --config-file ../pyproject.toml -p interplay -p interplay_command
         "$there/bin/python" -m mypy --strict --config-file ../pyproject.toml ./*.py
         "$there/bin/python" -m mypy.stubtest --mypy-config-file ../pyproject.toml --allowlist stubtest_allowlist.txt \

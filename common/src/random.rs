@@ -69,6 +69,11 @@ impl SplitMix64 {
         Self(seed)
     }
 
+    /// The state of the sequence: the sequence of this seed continues it.
+    pub fn state(&self) -> u64 {
+        self.0
+    }
+
     /// The next number of the sequence.
     pub fn next_u64(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import builtins
+import copy
 import json
 import os
-from collections.abc import Iterator, Mapping, Sequence
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
@@ -13,6 +15,8 @@ import numpy as np
 
 from . import _native
 from ._native import Scenario
+from ._reports import Entry, Record, VehicleReport, records
+from ._spaces import needs, own_seed
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -23,22 +27,17 @@ ScenarioLike = Union[str, "os.PathLike[str]", Scenario]
 Changes = Union[Mapping[str, Any], Sequence[str], None]
 
 
-class Record(dict[str, Any]):
-    """A table of JSON whose keys are attributes, too."""
+def as_json(value: Any) -> str:
+    """A value as JSON, arrays and numbers of NumPy included."""
 
-    def __getattr__(self, name: str) -> Any:
-        try:
-            return self[name]
-        except KeyError:
-            raise AttributeError(f"no `{name}`; there are {', '.join(self)}") from None
+    def plain(entry: Any) -> Any:
+        if hasattr(entry, "tolist"):
+            return entry.tolist()
+        raise TypeError(f"a scenario cannot hold {entry!r}; choose numbers, texts, lists and dictionaries")
 
-    def __dir__(self) -> builtins.list[str]:
-        return [*super().__dir__(), *self]
-
-
-def records(text: str) -> Any:
-    """JSON as numbers, lists and records."""
-    return json.loads(text, object_hook=Record)
+    if not isinstance(value, Mapping):
+        raise TypeError(f"a scenario is a dictionary with the keys of a scenario file, and not {value!r}")
+    return json.dumps(dict(value), default=plain)
 
 
 def toml_value(value: Any) -> str:
@@ -75,6 +74,8 @@ def load(name_or_path: ScenarioLike, *, set: Changes = None, seed: int | None = 
     ``set`` are changes by path, such as ``{"vehicle.ego.goal.speed_mps": 1.2}``; ``planner`` is a kind of driver for the ego.
     Raises :class:`interplay.ScenarioError` with ``file``, ``line``, ``column``, ``key`` and ``faults``.
     """
+    if seed is not None:
+        seed = own_seed(seed)
     if isinstance(name_or_path, Scenario):
         if set is None and seed is None and planner is None:
             return name_or_path
@@ -84,10 +85,10 @@ def load(name_or_path: ScenarioLike, *, set: Changes = None, seed: int | None = 
     return Scenario.load(os.fspath(name_or_path), changes(set), seed, planner)
 
 
-def list() -> builtins.list[Record]:
+def list() -> builtins.list[Entry]:
     """The scenarios of the package: name, title, what each shows, figure of the dissertation."""
     names = ("name", "title", "shows", "figure")
-    return [Record(zip(names, row)) for row in _native.list_scenarios()]
+    return [Entry(zip(names, row)) for row in _native.list_scenarios()]
 
 
 def check(name_or_path: ScenarioLike, *, set: Changes = None) -> builtins.list[str]:
@@ -145,10 +146,49 @@ class Frames(Mapping[str, Any]):
         return "<Frames " + ", ".join(f"{name} {np.shape(array)}" for name, array in self._arrays.items()) + ">"
 
 
-class Report(Record):
-    """What was measured in a run, with the keys of ``interplay run --json``."""
+class RecordedTicks:
+    """The ticks of a run that has come from another process."""
 
-    _recorded: _native.RecordedRun | None = None
+    def __init__(self, recorded: _native.RecordedRun) -> None:
+        self._frames, self._summary, self._scenario = recorded.frames(), recorded.summary(), recorded.scenario()
+
+    def frames(self) -> dict[str, Any]:
+        """All ticks as arrays by name."""
+        return dict(self._frames)
+
+    def summary(self) -> str:
+        """The words of ``interplay run``."""
+        return self._summary
+
+    def animation(self, format: str) -> bytes:
+        """The moving picture, for which the scenario is run again."""
+        if "python" in self._scenario.drivers:
+            raise _native.RunError("a run with a function of Python is drawn in the process in which it was made")
+        return _native.run(self._scenario).animation(format)
+
+
+class Report(Record):
+    """What was measured in a run, with the keys of ``interplay run --json``, which are attributes, too."""
+
+    scenario: str
+    passed: bool
+    seed: int
+    simulated_s: float
+    wall_s: float
+    digest: str
+    phase_digests: Any
+    collisions: builtins.list[Any]
+    contact_by_ego: bool
+    min_gap_m: float | None
+    smallest_gap: Any
+    shortest_time_to_collision: Any
+    right_of_way: builtins.list[Any]
+    order: builtins.list[str]
+    vehicles: builtins.list[VehicleReport]
+    building: Any
+    expectations: builtins.list[Any]
+    counterfactuals: builtins.list[Any]
+    _recorded: _native.RecordedRun | RecordedTicks | None = None
 
     @classmethod
     def of(cls, recorded: _native.RecordedRun) -> Report:
@@ -157,10 +197,32 @@ class Report(Record):
         object.__setattr__(report, "_recorded", recorded)
         return report
 
-    def _run(self) -> _native.RecordedRun:
+    def __deepcopy__(self, memo: dict[int, Any]) -> Report:
+        return self._copied(copy.deepcopy(dict(self), memo), self._recorded)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        recorded = self._recorded
+        if isinstance(recorded, _native.RecordedRun):
+            recorded = RecordedTicks(recorded)
+        return Report._copied, (dict(self), recorded)
+
+    @classmethod
+    def _copied(cls, table: dict[str, Any], recorded: Any) -> Report:
+        report = cls(table)
+        if recorded is not None:
+            object.__setattr__(report, "_recorded", recorded)
+        return report
+
+    def _run(self) -> _native.RecordedRun | RecordedTicks:
         if self._recorded is None:
             raise _native.RunError("only `interplay.run` keeps all ticks")
         return self._recorded
+
+    def __repr__(self) -> str:
+        return f"<Report of {self['scenario']!r}, seed {self['seed']}: {'passed' if self['passed'] else 'failed'}>"
+
+    def __str__(self) -> str:
+        return self.summary() if self._recorded is not None else repr(self)
 
     def to_dict(self) -> dict[str, Any]:
         """The report as plain dictionaries and lists."""
@@ -173,8 +235,7 @@ class Report(Record):
 
     def to_pandas(self) -> pd.DataFrame:
         """All ticks of all vehicles, or of all zones, as one table: a row for each of them at each time."""
-        import pandas as pd
-
+        pd = needs("pandas", "pandas")
         frames = self.frames()
         axes = {name: axes for name, (_, axes) in frames.about.items()}
         of_vehicles = [name for name in frames if axes[name] == ("time", "vehicle")]
@@ -223,27 +284,76 @@ def run(
 ) -> Report:
     """Runs a scenario to its end and returns its report.
 
-    ``planner`` drives the ego instead of the scenario's choice: a kind of driver, or ``{name: function}``, where the function maps
-    an observation to an action (:class:`interplay.PolicyFunction`); what it raises is raised when the run is over.
+    ``planner`` drives the ego instead of the scenario's choice: a kind of driver, :func:`interplay.policy` with its settings, the path
+    of a network (``.safetensors``), or ``{name: function}``, where the function maps an observation to an action
+    (:class:`interplay.PolicyFunction`); what it raises is raised when the run is over.
 
     The others are files to be written, as by the flags of ``interplay run``: ``record`` (``.rrd``), ``animate`` (``.gif``,
     ``.webp``, ``.png`` or ``.mp4``), the tables ``trajectories``, ``detectors`` and ``series`` (``.csv`` or ``.parquet``), and
     ``export``, a scenario of CommonRoad with its solution beside it (``.xml``).
     """
-    from ._policies import raise_failures, registered
-
-    kind, driver = registered(planner)
-    if driver is not None:
-        set = [*changes(set), f"vehicle.ego.driver={toml_value(driver)}"]
-    loaded = load(scenario, set=set, seed=seed, planner=kind)
     asked = {"animate": animate, "trajectories": trajectories, "detectors": detectors, "series": series, "export": export}
     outputs = {flag: os.fspath(path) for flag, path in asked.items() if path is not None}
-    recorded = _native.run(loaded, None if record is None else os.fspath(record), outputs)
-    raise_failures(planner if isinstance(planner, Mapping) else ())
+    return _run(scenario, planner, set, seed, None if record is None else os.fspath(record), outputs, None)
+
+
+def _run(
+    scenario: ScenarioLike,
+    planner: Planner,
+    set: Changes,
+    seed: int | None,
+    record: str | None,
+    outputs: dict[str, str],
+    is_cancelled: Callable[[], bool] | None,
+) -> Report:
+    from ._policies import resolved
+
+    kind, settings, function = resolved(planner)
+    if settings is not None:
+        set = [*changes(set), f"vehicle.ego.driver={toml_value(settings)}"]
+    loaded = load(scenario, set=set, seed=seed, planner=kind)
+    if function is None:
+        return Report.of(_native.run(loaded, record, outputs, is_cancelled))
+    function.function.seed = loaded.seed
+    with function:
+        recorded = _native.run(loaded, record, outputs, is_cancelled)
+        function.raise_failure()
     return Report.of(recorded)
 
 
-def identify(table: Any, mapping: Any, *, scenario: str | os.PathLike[str] | None = None) -> Record:
+def run_many(
+    scenarios: ScenarioLike | Sequence[ScenarioLike],
+    planners: Planner | Sequence[Planner] = None,
+    seeds: Sequence[int | None] | None = None,
+    jobs: int | None = None,
+    *,
+    set: Changes = None,
+) -> builtins.list[Report]:
+    """Runs every scenario with every planner and every seed, and returns the reports in this order, the seeds fastest.
+
+    ``jobs`` is the number of runs side by side, by default one for each core. The reports do not depend on it. The first error ends
+    all runs and is raised.
+    """
+    from concurrent.futures import ThreadPoolExecutor
+
+    listed = [scenarios] if isinstance(scenarios, (str, os.PathLike, Scenario)) else [*scenarios]
+    drivers: builtins.list[Any] = [*planners] if isinstance(planners, (builtins.list, tuple)) else [planners]
+    every = [(scenario, planner, seed) for scenario in listed for planner in drivers for seed in ([None] if seeds is None else seeds)]
+    count = (os.cpu_count() or 1) if jobs is None else jobs
+    if not 1 <= count <= 1024:
+        raise ValueError(f"`jobs` is from 1 to 1024, and not {jobs}")
+    ended, pool = threading.Event(), ThreadPoolExecutor(count)
+    try:
+        futures = [pool.submit(_run, scenario, planner, set, seed, None, {}, ended.is_set) for scenario, planner, seed in every]
+        return [future.result() for future in futures]
+    except BaseException:
+        ended.set()
+        raise
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+
+
+def identify(table: Any, mapping: Any, *, scenario: str | os.PathLike[str] | None = None) -> Any:
     """Finds thermal parameters in telemetry: the document of ``interplay identify --json``.
 
     ``table`` is a pandas table or the path of a CSV file, ``mapping`` says which column is what (``interplay identify --help``): a

@@ -1,7 +1,7 @@
 """The native half of the package: JSON, numbers and arrays, of which the modules beside it make objects."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, final
 
 import numpy as np
@@ -23,6 +23,7 @@ __all__ = [
     "list_scenarios",
     "main",
     "register_policy",
+    "remove_policy",
     "run",
     "scenario_names",
     "sweep",
@@ -59,6 +60,21 @@ class Scenario:
     def load(source: str, sets: Sequence[str] = ..., seed: int | None = None, planner: str | None = None) -> Scenario:
         """Reads a scenario: a name or a path, with changes such as ``vehicle.ego.goal.speed_mps=1.2``."""
 
+    @staticmethod
+    def from_toml(text: str, name: str = "scenario.toml") -> Scenario:
+        """Reads the text of a scenario file; ``name`` is its name in errors, and paths in it are relative to it."""
+
+    @staticmethod
+    def from_dict(table: Mapping[str, Any]) -> Scenario:
+        """The scenario of a dictionary with the keys of a scenario file; ``extends`` may name another scenario."""
+
+    @staticmethod
+    def written(text: str, seed: int, name: str, source: str, changes: tuple[list[str], int | None, str | None]) -> Scenario:
+        """The scenario of a file as it was when it was pickled."""
+
+    def __eq__(self, other: object) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __deepcopy__(self, _memo: Any) -> Scenario: ...
     def to_toml(self) -> str:
         """The scenario as a file: everything stated."""
 
@@ -74,7 +90,7 @@ class Scenario:
     def changes(self) -> tuple[list[str], int | None, str | None]:
         """The changes with which it was loaded: those of `set`, the seed, and the planner."""
 
-    def __reduce__(self) -> tuple[Any, tuple[str, list[str], int | None, str | None]]: ...
+    def __reduce__(self) -> tuple[Any, tuple[str, int, str, str, tuple[list[str], int | None, str | None]]]: ...
 
     @property
     def title(self) -> str:
@@ -135,6 +151,13 @@ class Snapshot:
     def to_json(self) -> str:
         """The snapshot as text."""
 
+    @staticmethod
+    def from_json(text: str) -> Snapshot:
+        """The snapshot of such a text: it repeats the run, which takes as long as the run took."""
+
+    def __reduce__(self) -> tuple[Any, tuple[str]]: ...
+    def __deepcopy__(self, _memo: Any) -> Snapshot: ...
+
 @final
 class Simulation:
     """A scenario as a world that is stepped."""
@@ -142,6 +165,12 @@ class Simulation:
     def __new__(cls, scenario: Scenario, external: Sequence[str] = ...) -> Simulation:
         """The world before its first tick; ``external`` vehicles are driven from Python."""
 
+    @staticmethod
+    def resumed(snapshot: Snapshot) -> Simulation:
+        """A world that continues from a snapshot."""
+
+    def __reduce__(self) -> tuple[Any, tuple[Snapshot]]: ...
+    def __deepcopy__(self, _memo: Any) -> Simulation: ...
     def step(self) -> bool:
         """Moves the world by a tick or a step of the building; whether there was one left."""
 
@@ -186,6 +215,16 @@ class Environment:
 
     def __new__(cls, scenario: Scenario, settings_json: str) -> Environment:
         """An environment before its first episode."""
+
+    @staticmethod
+    def repeated(scenario: Scenario, settings_json: str, saved: str) -> Environment:
+        """An environment in the middle of an episode, which it repeats from its text."""
+
+    def __reduce__(self) -> tuple[Any, tuple[Scenario, str, str]]: ...
+    def __deepcopy__(self, _memo: Any) -> Environment: ...
+    @property
+    def street(self) -> str | None:
+        """The name of the street of the episode, if streets are drawn."""
 
     @property
     def agents(self) -> list[str]:
@@ -261,7 +300,7 @@ class Planner:
 
 @final
 class Batch:
-    """Worlds with one agent each that are stepped side by side, on all cores."""
+    """Worlds that are stepped side by side, on all cores; a row is an agent, those of the first world first."""
 
     def __new__(cls, scenarios: Sequence[Scenario], settings_json: str, autoreset: str) -> Batch:
         """A world of each scenario; ``autoreset`` is ``next_step``, ``same_step`` or ``disabled``."""
@@ -280,7 +319,7 @@ class Batch:
         """Begins episodes where ``which`` says so, each with its seed or the next of its sequence."""
 
     def observe(self) -> NDArray[np.float32]:
-        """What all agents see now, a row a world."""
+        """What all agents see now, a row an agent."""
 
     def step(
         self, actions: NDArray[np.float32]
@@ -291,12 +330,38 @@ class Batch:
         NDArray[np.bool_],
         NDArray[np.bool_],
         NDArray[np.float64],
+        NDArray[np.bool_],
         list[str | None],
     ]:
-        """Steps all worlds; returns observations, last observations, rewards, terminated, truncated, terms and endings."""
+        """Steps all worlds; returns observations, last observations, rewards, terminated, truncated, terms, agents that go on, endings."""
 
     def action_masks(self) -> list[list[bool] | None]:
-        """Which meta-actions the agent of each world can do now."""
+        """Which meta-actions each agent can do now."""
+
+    def agents(self, world: int) -> list[str]:
+        """The names of the agents' vehicles in a world."""
+
+    def about(self, world: int) -> tuple[float, str | None]:
+        """Simulated time of a world, and the name of its street, where streets are drawn."""
+
+    def states(self, world: int) -> list[tuple[str, list[float]]]:
+        """The state of every vehicle of a world."""
+
+    def picture(self, world: int) -> NDArray[np.uint8] | None:
+        """The picture of a world; none before the first episode."""
+
+@final
+class Network:
+    """A trained network of a ``.safetensors`` file."""
+
+    def __new__(cls, file: str) -> Network:
+        """Reads the file."""
+
+    def about(self) -> tuple[str, str, str]:
+        """The views and the kind of action as JSON, and the digest of the file."""
+
+    def decide(self, observation: NDArray[np.float32]) -> tuple[list[float], list[float]]:
+        """The outputs of the last layer for one flat observation, and the flat action."""
 
 @final
 class RecordedRun:
@@ -304,6 +369,9 @@ class RecordedRun:
 
     def report(self) -> str:
         """The report as JSON."""
+
+    def scenario(self) -> Scenario:
+        """The scenario, as a value that can be run again."""
 
     def summary(self) -> str:
         """The words of ``interplay run``."""
@@ -330,6 +398,7 @@ def run(
     scenario: Scenario,
     record: _Path | None = None,
     outputs: dict[str, str] | None = None,
+    is_cancelled: Callable[[], bool] | None = None,
 ) -> RecordedRun:
     """Runs a scenario and its counterfactuals, and writes a recording and the outputs of these flags."""
 
@@ -346,5 +415,8 @@ def sweep(
 def identify(table: str, mapping: str, names: tuple[str, str]) -> tuple[str, str, str | None]:
     """Finds thermal parameters in a table; returns report as JSON, summary and scenario."""
 
-def register_policy(name: str, function: _Policy) -> None:
-    """Registers a function under a name, in place of any before it."""
+def register_policy(name: str, registration: int, function: _Policy) -> bool:
+    """Registers a function under a name and a number; whether the place was free."""
+
+def remove_policy(name: str, registration: int) -> None:
+    """Takes away a registered function."""

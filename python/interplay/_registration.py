@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import gymnasium
 
 from . import _native
@@ -31,15 +33,19 @@ def identifier(family: str) -> str:
 
 def register() -> None:
     """Registers all environments; those that are there stay as they are."""
-    entries = {identifier(family): {"scenario": scenario} for family, scenario in families().items()}
-    entries["interplay/Scenario-v0"] = {}
-    for name, settings in entries.items():
+    usual = ("interplay.envs:InterplayEnv", "interplay.envs:InterplayVectorEnv")
+    entries: dict[str, tuple[tuple[str, str], dict[str, Any]]] = {
+        identifier(family): (usual, {"scenario": scenario}) for family, scenario in families().items()
+    }
+    entries["interplay/Scenario-v0"] = (usual, {})
+    for name, task in {"Street": "street", "Highway": "highway", "Merge": "merge"}.items():
+        module = "streets" if task == "street" else "highway"
+        made = (f"interplay.{module}:{task}_env", f"interplay.{module}:{task}_vector_env")
+        entries[f"interplay/{name}-v0"] = (made, {})
+    for name, (made, settings) in [*entries.items()]:
+        entries[name.replace("-v0", "-Discrete-v0")] = (made, {**settings, "action": "DiscreteMeta", "flat": True})
+    for name, ((entry, vector), settings) in entries.items():
         if name not in gymnasium.registry:
-            gymnasium.register(
-                id=name,
-                entry_point="interplay.envs:InterplayEnv",
-                vector_entry_point="interplay.envs:InterplayVectorEnv",
-                kwargs=settings,
-            )
+            gymnasium.register(id=name, entry_point=entry, vector_entry_point=vector, kwargs=settings)
     if "interplay/Building-v0" not in gymnasium.registry:
         gymnasium.register(id="interplay/Building-v0", entry_point="interplay.building:BuildingEnv")

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._library import Changes, Frames, Record, Report, ScenarioLike, load, records
+from ._library import Changes, Frames, Report, ScenarioLike, load
+from ._reports import Record, records
 
 
 class Zone(NamedTuple):
@@ -59,7 +60,7 @@ class Simulation:
         arrays = self._world.frame()
         return None if arrays is None else Frames({name: array for name, array in arrays.items() if name != "tick"})
 
-    def observe(self, vehicle: str) -> Record:
+    def observe(self, vehicle: str) -> Any:
         """The scene that the driver of a vehicle would plan from at the next tick: its own vehicle first, then those that it sees.
 
         ``vehicles``: names; ``state``: x_m, y_m, heading_rad, speed_mps of each; ``body_m``: front, rear, width, front axle, rear

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib
 import json
+import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -13,6 +15,16 @@ from numpy.typing import NDArray
 OBSERVATIONS = ("Kinematics", "Lane", "OccupancyGrid", "Plan", "Belief")
 #: What an agent decides.
 ACTIONS = ("Continuous", "DiscreteMeta", "Plan")
+
+
+def needs(module: str, extra: str) -> Any:
+    """A module that an extra of the package installs."""
+    try:
+        return importlib.import_module(module)
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.split(".")[0] != module.split(".")[0]:
+            raise
+        raise ModuleNotFoundError(f"{module} is not installed: pip install 'interplay[{extra}]'", name=module) from None
 
 
 def observation_settings(observation: Any) -> list[dict[str, Any]]:
@@ -35,6 +47,8 @@ def environment_settings(
     agents: Sequence[str] | None,
     perturb: bool | Mapping[str, Any],
     decision_s: float | None,
+    streets: Mapping[str, Any] | None = None,
+    set: Any = None,
 ) -> str:
     """The settings of an environment as JSON."""
     kind = action.get("type", action.get("kind")) if isinstance(action, Mapping) else action
@@ -52,9 +66,21 @@ def environment_settings(
         "decision_s": decision_s,
         "agents": [agents] if isinstance(agents, str) else list(agents or []),
     }
+    if streets is not None:
+        from ._library import changes
+
+        settings["streets"] = {**streets, "set": changes(set)}
     if reward is not None:
         settings["reward"] = dict(reward)
     return json.dumps(settings)
+
+
+def drawn_scenarios(listed: Sequence[Any], streets: Mapping[str, Any] | None) -> tuple[str, dict[str, Any]]:
+    """The first of some scenarios, and the settings with which each episode draws one of them."""
+    if not listed or not all(isinstance(entry, (str, os.PathLike)) for entry in listed):
+        raise ValueError("a list of scenarios, of which each episode draws one, has names and paths, and at least one")
+    names = [os.fspath(entry) for entry in listed]
+    return names[0], {**(streets or {}), "scenarios": names}
 
 
 def shaped_observation(numbers: NDArray[np.float32], shapes: Sequence[tuple[str, Sequence[int]]], is_single: bool) -> Any:
@@ -71,7 +97,7 @@ def own_seed(seed: Any) -> int:
     """A seed of a scenario."""
     number = int(seed)
     if not 0 <= number < 2**64:
-        raise ValueError(f"a seed is at least 0 and below 2^64, and not {seed}")
+        raise ValueError(f"a seed is from 0 to 2^64 - 1, and not {seed}")
     return number
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import subprocess
@@ -11,7 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._policies import as_function, raise_failures
+from ._policies import Network, Registered, as_function
+from ._spaces import needs
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -21,17 +23,21 @@ def _is_function(value: Any) -> bool:
     return callable(value) or hasattr(value, "function") or hasattr(value, "predict")
 
 
-def _planners(planners: Any, names: list[str]) -> list[Any]:
-    """Planners of a plan, functions of Python as tables; ``names`` gets the names of those."""
+def _planners(planners: Any, functions: list[Registered]) -> list[Any]:
+    """Planners of a plan, functions of Python as tables; ``functions`` gets those."""
     listed = planners if isinstance(planners, (list, tuple)) else [planners]
     found: list[Any] = []
     for planner in listed:
         if isinstance(planner, Mapping) and all(_is_function(value) for value in planner.values()):
             for name, function in planner.items():
-                names.append(name)
-                driver = as_function(function).register(name)
+                functions.append(Registered(name, as_function(function), is_of_sweep=True))
+                driver = dict(functions[-1].settings)
                 kind = driver.pop("kind")
+                del driver["registration"]
                 found.append({"name": name, "kind": kind, "set": {f"vehicle.ego.driver.{key}": value for key, value in driver.items()}})
+        elif isinstance(planner, Network) or str(planner).endswith(".safetensors"):
+            file = os.path.abspath(planner.file if isinstance(planner, Network) else planner)
+            found.append({"name": Path(file).stem, "kind": "policy", "set": {"vehicle.ego.driver.file": file}})
         else:
             found.append(planner)
     return found
@@ -48,12 +54,13 @@ def sweep(
     """Runs a plan on all cores and returns its rows, those of ``runs.parquet``.
 
     ``plan`` is the name of a plan in the package, a path, or a dictionary with the keys of a plan, in which ``planner`` may hold
-    functions of Python: ``["negotiation", {"mine": function}]``. A function's name and version enter the keys of its runs: what is
+    functions of Python and networks: ``["negotiation", {"mine": function}, "net.safetensors"]``. A function's name and version enter the keys of its runs: what is
     in the folder ``out`` is not run again. Without ``out`` nothing is kept.
     """
-    import pandas as pd
-
-    text, functions = None, list[str]()
+    pd, _ = needs("pandas", "pandas"), needs("pyarrow", "pandas")
+    if jobs is not None and not 0 <= jobs <= 1024:
+        raise ValueError(f"`jobs` is from 0, one for each core, to 1024, and not {jobs}")
+    text, functions = None, list[Registered]()
     if isinstance(plan, Mapping):
         written = dict(plan)
         if "planner" in written:
@@ -61,10 +68,14 @@ def sweep(
         if samples is not None:
             written["samples"] = samples
         text, plan = json.dumps(written), "the plan"
-    with tempfile.TemporaryDirectory() as passing:
+    with contextlib.ExitStack() as stack:
+        passing = stack.enter_context(tempfile.TemporaryDirectory(ignore_cleanup_errors=True))
+        for function in functions:
+            stack.enter_context(function)
         folder = Path(passing) / "rows" if out is None else Path(out)
         table, _, unfinished = _native.sweep(os.fspath(plan), folder, text, jobs, samples, keep_failures)
-        raise_failures(functions)
+        for function in functions:
+            function.raise_failure()
         rows = pd.read_parquet(table)
     if unfinished:
         import warnings

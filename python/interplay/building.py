@@ -5,13 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-import gymnasium
 import numpy as np
-from gymnasium import spaces
 from numpy.typing import NDArray
 
 from ._library import Changes, ScenarioLike
 from ._simulation import Simulation, Zone
+from ._spaces import needs
+
+needs("gymnasium", "rl")
+
+import gymnasium
+from gymnasium import spaces
 
 #: What numbers are divided by: degrees of an error, and degrees outdoors.
 ERROR_K, OUTDOOR_C = 10.0, 30.0
@@ -108,8 +112,3 @@ class BuildingEnv(gymnasium.Env[Any, Any]):
         reward = sum(self._weights[name] * value for name, value in terms.items())
         is_over = self._world.is_over or self._world.time_s >= 86_400 * self._days - 1e-6
         return self._observed(zones), float(reward), False, is_over, {"time_s": self._world.time_s, "reward_terms": terms}
-
-    def __getstate__(self) -> dict[str, Any]:
-        state = dict(self.__dict__)
-        state["_world"] = None
-        return state

@@ -8,12 +8,19 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pettingzoo import ParallelEnv
 
 from . import _native
+from ._copies import EnvSnapshot, copied
 from ._library import Changes, ScenarioLike, load
-from ._spaces import environment_settings, own_seed
-from .envs import PICTURE_PX, PICTURES_PER_S, Views, _of_size, info_of
+from ._spaces import environment_settings, needs, own_seed
+
+needs("gymnasium", "rl")
+needs("pettingzoo", "rl")
+
+from gymnasium import spaces
+from pettingzoo import ParallelEnv
+
+from ._views import PICTURE_PX, PICTURES_PER_S, Reward, Views, info_of, of_size, weights_of
 
 
 class InterplayParallelEnv(ParallelEnv):
@@ -37,7 +44,7 @@ class InterplayParallelEnv(ParallelEnv):
         *,
         observation: Any = "Kinematics",
         action: Any = "Continuous",
-        reward: Mapping[str, float] | None = None,
+        reward: Reward = None,
         perturb: bool | Mapping[str, Any] = True,
         decision_s: float | None = None,
         set: Changes = None,
@@ -47,13 +54,16 @@ class InterplayParallelEnv(ParallelEnv):
         if agents is None:
             agents = self.scenario.default_agents
         self.render_mode = render_mode
-        settings = environment_settings(observation, action, reward, agents, perturb, decision_s)
+        self._reward = reward if callable(reward) else None
+        settings = environment_settings(observation, action, weights_of(reward), agents, perturb, decision_s)
         self._native = _native.Environment(self.scenario, settings)
         self._views = Views(self._native, observation)
         self.possible_agents: list[str] = list(self._native.agents)
         # Each agent has spaces of its own, which draw random samples of their own.
         own = (self._views.observation_space, self._views.action_space)
         self._spaces = {agent: copy.deepcopy(own) for agent in self.possible_agents}
+        #: Position, heading and speed of every vehicle of the scenario, in its order.
+        self.state_space: spaces.Space[Any] = spaces.Box(-np.inf, np.inf, (4 * len(self.scenario.vehicles),), np.float32)
         self.agents: list[str] = []
         self._rng = np.random.default_rng()
         self._is_seeded = False
@@ -105,8 +115,15 @@ class InterplayParallelEnv(ParallelEnv):
         terminated = {agent: outcome[1] for agent, outcome in outcomes.items()}
         truncated = {agent: outcome[2] for agent, outcome in outcomes.items()}
         infos = {agent: info_of(self._native, self._place(agent), outcome[3]) for agent, outcome in outcomes.items()}
+        if self._reward is not None:
+            rewards = {agent: float(self._reward(info["reward_terms"], info)) for agent, info in infos.items()}
         self.agents = [agent for agent in self.agents if not (terminated[agent] or truncated[agent])]
         return seen, rewards, terminated, truncated, infos
+
+    def state(self) -> NDArray[np.float32]:
+        """The state of the world for a central critic: position, heading and speed of every vehicle, as ``state_space`` has it."""
+        states = [state for _, state in self._native.states()] or [[0.0] * 4] * len(self.scenario.vehicles)
+        return np.array(states, dtype=np.float32).reshape(-1)
 
     def planned(self, planner: _native.Planner, agent: str | int | None = None) -> Any:
         """The action of an Interplay planner for an agent now; see :func:`interplay.policy`."""
@@ -116,7 +133,18 @@ class InterplayParallelEnv(ParallelEnv):
     def render(self) -> Any:
         """The world from above, an array of 544 × 720 pixels."""
         picture = self._native.picture()
-        return None if picture is None else _of_size(picture, PICTURE_PX)
+        return None if picture is None else of_size(picture, PICTURE_PX)
+
+    def snapshot(self) -> EnvSnapshot:
+        """A copy of all state, for :meth:`restore`; it costs about as much as a step."""
+        random = copy.deepcopy(self._rng)
+        return EnvSnapshot(copy.deepcopy(self._native), self.scenario, self._is_seeded, random, tuple(self.agents))
+
+    def restore(self, snapshot: EnvSnapshot) -> None:
+        """Goes back, or forth, to a snapshot of this environment or of one with the same settings."""
+        self._native = copied(snapshot, self.possible_agents)
+        self.scenario, self._is_seeded = snapshot.scenario, snapshot.is_seeded
+        self._rng, self.agents = copy.deepcopy(snapshot.random), [*snapshot.agents]
 
     def close(self) -> None:
         """Nothing is left open."""

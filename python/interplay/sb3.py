@@ -6,9 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from stable_baselines3.common.vec_env.base_vec_env import VecEnv as BaseVecEnv
 
 from . import _native
+from ._spaces import needs
+
+needs("stable_baselines3", "sb3")
+
+from stable_baselines3.common.vec_env.base_vec_env import VecEnv as BaseVecEnv
+
 from .envs import InterplayVectorEnv
 
 
@@ -17,6 +22,7 @@ class VecEnv(BaseVecEnv):
 
     def __init__(self, scenario: Any = "lane-change/front-nice", *, num_envs: int = 8, **settings: Any) -> None:
         self.worlds = InterplayVectorEnv(scenario, num_envs=num_envs, autoreset_mode="SameStep", **settings)
+        num_envs, self._each = self.worlds.num_envs, self.worlds.num_envs // num_envs
         super().__init__(num_envs, self.worlds.single_observation_space, self.worlds.single_action_space)
         self._actions: Any = None
         self._returns = np.zeros(num_envs)
@@ -24,7 +30,8 @@ class VecEnv(BaseVecEnv):
 
     def reset(self) -> Any:
         """Begins an episode in every world, with the seeds that were set."""
-        seeds = self._seeds if any(seed is not None for seed in self._seeds) else None
+        own = self._seeds[:: self._each]
+        seeds = own if any(seed is not None for seed in own) else None
         seen, info = self.worlds.reset(seed=seeds)
         self._reset_seeds()
         self._reset_options()
@@ -56,6 +63,10 @@ class VecEnv(BaseVecEnv):
 
     def close(self) -> None:
         """Nothing is left open."""
+
+    def get_images(self) -> Sequence[Any]:
+        """The picture of each world."""
+        return list(self.worlds.render() or ())
 
     def action_masks(self) -> Any:
         """Which meta-actions can be done now, for ``MaskablePPO``."""

@@ -6,19 +6,19 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::arrays::{numbers, shaped};
-use crate::environment::{described, described_action, settings, term_names};
+use crate::environment::{described, described_action, picture, settings, states, term_names};
 use crate::errors::of_environment;
 use crate::scenario::PyScenario;
 use crate::threads::on_all_cores;
 
-/// Worlds with one agent each that are stepped side by side, on all cores.
+/// Worlds that are stepped side by side, on all cores; rows of several agents follow one another, those of the first world first.
 #[pyclass(name = "Batch", module = "interplay._native")]
 pub struct PyBatch {
     pub batch: EnvironmentBatch,
     observation_len: usize,
 }
 
-/// Observations, last observations, rewards, terminated, truncated, terms of the rewards, endings.
+/// Observations, last observations, rewards, terminated, truncated, terms of the rewards, agents that go on, endings.
 type Steps<'py> = (
     Bound<'py, PyArrayDyn<f32>>,
     Bound<'py, PyArrayDyn<f32>>,
@@ -26,12 +26,22 @@ type Steps<'py> = (
     Bound<'py, PyArrayDyn<bool>>,
     Bound<'py, PyArrayDyn<bool>>,
     Bound<'py, PyArrayDyn<f64>>,
+    Bound<'py, PyArrayDyn<bool>>,
     Vec<Option<&'static str>>,
 );
 
 impl PyBatch {
     fn worlds(&self) -> usize {
         self.batch.environments().len()
+    }
+
+    fn rows(&self) -> usize {
+        self.worlds() * self.batch.agents()
+    }
+
+    fn world(&self, world: usize) -> PyResult<&Environment> {
+        let message = || PyValueError::new_err(format!("{world} is not the number of a world"));
+        self.batch.environments().get(world).ok_or_else(message)
     }
 }
 
@@ -80,35 +90,60 @@ impl PyBatch {
         py.detach(|| on_all_cores(|| self.batch.reset(&seeds, &which)))?.map_err(of_environment)
     }
 
-    /// What all agents see now, a row a world.
+    /// What all agents see now, a row an agent.
     fn observe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
-        let mut out = vec![0.0; self.worlds() * self.observation_len];
-        for (environment, row) in self.batch.environments().iter().zip(out.chunks_exact_mut(self.observation_len)) {
-            environment.observe(0, row).map_err(of_environment)?;
+        let (rows, length, agents) = (self.rows(), self.observation_len, self.batch.agents());
+        let mut out = vec![0.0; rows * length];
+        for (row, out) in out.chunks_exact_mut(length).enumerate() {
+            self.world(row / agents)?.observe(row % agents, out).map_err(of_environment)?;
         }
-        shaped(py, out, &[self.worlds(), self.observation_len])
+        shaped(py, out, &[rows, length])
     }
 
     /// Steps all worlds by one decision each, on all cores.
     fn step<'py>(&mut self, py: Python<'py>, actions: PyReadonlyArrayDyn<'_, f32>) -> PyResult<Steps<'py>> {
-        let (actions, worlds, length) = (numbers(&actions), self.worlds(), self.observation_len);
-        let mut steps = BatchSteps::new(worlds, length);
+        let (actions, rows, length) = (numbers(&actions), self.rows(), self.observation_len);
+        let mut steps = BatchSteps::new(rows, length);
         py.detach(|| on_all_cores(|| self.batch.step(&actions, &mut steps)))?.map_err(of_environment)?;
         let terms = steps.terms.concat();
         Ok((
-            shaped(py, steps.observations, &[worlds, length])?,
-            shaped(py, steps.last_observations, &[worlds, length])?,
-            shaped(py, steps.rewards, &[worlds])?,
-            shaped(py, steps.terminated, &[worlds])?,
-            shaped(py, steps.truncated, &[worlds])?,
-            shaped(py, terms, &[worlds, term_names().len()])?,
+            shaped(py, steps.observations, &[rows, length])?,
+            shaped(py, steps.last_observations, &[rows, length])?,
+            shaped(py, steps.rewards, &[rows])?,
+            shaped(py, steps.terminated, &[rows])?,
+            shaped(py, steps.truncated, &[rows])?,
+            shaped(py, terms, &[rows, term_names().len()])?,
+            shaped(py, steps.present, &[rows])?,
             steps.endings.into_iter().map(|ending| ending.map(Ending::name)).collect(),
         ))
     }
 
-    /// Which meta-actions the agent of each world can do now.
+    /// The names of the agents' vehicles in a world.
+    fn agents(&self, world: usize) -> PyResult<Vec<&str>> {
+        Ok(self.world(world)?.agents().collect())
+    }
+
+    /// Simulated time of a world, and the name of its street, if streets are drawn.
+    fn about(&self, world: usize) -> PyResult<(f64, Option<&str>)> {
+        let world = self.world(world)?;
+        Ok((world.time_s(), world.street()))
+    }
+
+    /// The state of every vehicle of a world, by name: position, heading and speed.
+    fn states(&self, world: usize) -> PyResult<Vec<(String, [f64; 4])>> {
+        self.world(world).map(states)
+    }
+
+    /// The picture of a world; none before the first episode.
+    fn picture<'py>(&self, py: Python<'py>, world: usize) -> PyResult<Option<Bound<'py, PyArrayDyn<u8>>>> {
+        picture(py, self.world(world)?)
+    }
+
+    /// Which meta-actions each agent can do now.
     fn action_masks(&self) -> Vec<Option<Vec<bool>>> {
+        let agents = self.batch.agents();
         let worlds = self.batch.environments().iter();
-        worlds.map(|environment| environment.action_mask(0).map(|mask| mask.to_vec())).collect()
+        let masks = worlds.flat_map(|world| (0..agents).map(|agent| world.action_mask(agent)));
+        masks.map(|mask| mask.map(|mask| mask.to_vec())).collect()
     }
 }

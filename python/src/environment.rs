@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use interplay_planners::{Driver, Planner};
 use interplay_presentation::figures::RecordedRun;
 use interplay_simulation::environment::{
-    ActionSpace, Environment, EnvironmentSettings, Episode, ObservationSpace, RewardTerm,
+    ActionSpace, Environment, EnvironmentSettings, Episode, ObservationSpace, RewardTerm, SavedEpisode,
 };
 use interplay_simulation::frame::{Frame, VehicleFrame};
 use numpy::{IntoPyArray, PyArray1, PyArrayDyn, PyReadonlyArrayDyn};
@@ -21,7 +21,13 @@ use crate::scenario::PyScenario;
 #[pyclass(name = "Environment", module = "interplay._native")]
 pub struct PyEnvironment {
     pub environment: Environment,
+    made_of: MadeOf,
 }
+
+/// What an environment is made of: its scenario, and its settings as JSON.
+type MadeOf = (Py<PyScenario>, String);
+/// A function of the package, and what to call it with; pickle calls it in another process.
+pub type Remade<'py, T> = (Bound<'py, PyAny>, T);
 
 /// A planner of Interplay with its memory, for the agent of one environment.
 #[pyclass(name = "Planner", module = "interplay._native")]
@@ -49,6 +55,39 @@ pub fn described_action(space: ActionSpace) -> (Option<usize>, Option<usize>) {
     }
 }
 
+fn remade_of(py: Python<'_>, (scenario, settings): &MadeOf) -> MadeOf {
+    (scenario.clone_ref(py), settings.clone())
+}
+
+/// A value as JSON.
+pub fn as_json(what: &str, value: &impl serde::Serialize) -> PyResult<String> {
+    serde_json::to_string(value).map_err(|error| bad_json(what, &error))
+}
+
+/// The state of every vehicle of an environment, by name: position, heading and speed.
+pub fn states(environment: &Environment) -> Vec<(String, [f64; 4])> {
+    let Some(world) = environment.world() else { return Vec::new() };
+    let names = world.scenario().vehicles.iter().map(|vehicle| vehicle.name.clone());
+    names.zip(world.states()).map(|(name, state)| (name, state.to_array())).collect()
+}
+
+/// The picture of an environment now; none before the first episode.
+pub fn picture<'py>(py: Python<'py>, environment: &Environment) -> PyResult<Option<Bound<'py, PyArrayDyn<u8>>>> {
+    let Some(world) = environment.world() else { return Ok(None) };
+    let picture = py.detach(|| {
+        let scenario = world.scenario().clone();
+        let now = scenario.vehicles.iter().zip(world.states()).enumerate().map(|(index, (vehicle, state))| {
+            let last = world.frame().and_then(|frame| frame.vehicles.get(index).cloned()).unwrap_or_default();
+            VehicleFrame { name: vehicle.name.clone(), state, ..last }
+        });
+        let frame =
+            Frame { time_s: world.time_s(), vehicles: now.collect(), ..world.frame().cloned().unwrap_or_default() };
+        let now = RecordedRun::to_draw(scenario, vec![frame], world.report());
+        interplay_presentation::animation::last_picture(&now)
+    });
+    picture.map(|([width, height], pixels)| shaped(py, pixels, &[height as usize, width as usize, 3])).transpose()
+}
+
 /// The names of the terms of the reward.
 pub fn term_names() -> Vec<&'static str> {
     RewardTerm::ALL.iter().map(|term| term.name()).collect()
@@ -57,9 +96,35 @@ pub fn term_names() -> Vec<&'static str> {
 #[pymethods]
 impl PyEnvironment {
     #[new]
-    fn new(scenario: &PyScenario, settings_json: &str) -> PyResult<Self> {
-        let environment = Environment::new(&scenario.scenario, &settings(settings_json)?).map_err(of_environment)?;
-        Ok(PyEnvironment { environment })
+    fn new(scenario: Py<PyScenario>, settings_json: String) -> PyResult<Self> {
+        let environment = Environment::new(&scenario.get().scenario, &settings(&settings_json)?);
+        Ok(PyEnvironment { environment: environment.map_err(of_environment)?, made_of: (scenario, settings_json) })
+    }
+
+    /// An environment in the middle of an episode, which it repeats from its text.
+    #[staticmethod]
+    fn repeated(py: Python<'_>, scenario: Py<PyScenario>, settings_json: String, saved: &str) -> PyResult<Self> {
+        let mut made = PyEnvironment::new(scenario, settings_json)?;
+        let saved: SavedEpisode = serde_json::from_str(saved).map_err(|error| bad_json("a saved episode", &error))?;
+        py.detach(|| made.environment.repeat(&saved)).map_err(of_environment)?;
+        Ok(made)
+    }
+
+    fn __deepcopy__(&self, py: Python<'_>, _memo: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let environment = py.detach(|| self.environment.fork()).map_err(of_environment)?;
+        Ok(PyEnvironment { environment, made_of: remade_of(py, &self.made_of) })
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Remade<'py, (Py<PyScenario>, String, String)>> {
+        let (scenario, settings) = remade_of(py, &self.made_of);
+        let repeated = py.get_type::<PyEnvironment>().getattr("repeated")?;
+        Ok((repeated, (scenario, settings, as_json("a saved episode", &self.environment.saved())?)))
+    }
+
+    /// The name of the street of the episode, if streets are drawn.
+    #[getter]
+    fn street(&self) -> Option<&str> {
+        self.environment.street()
     }
 
     /// The names of the agents' vehicles.
@@ -151,33 +216,18 @@ impl PyEnvironment {
 
     /// The state of every vehicle now, by name: position, heading and speed.
     fn states(&self) -> Vec<(String, [f64; 4])> {
-        let Some(world) = self.environment.world() else { return Vec::new() };
-        let names = world.scenario().vehicles.iter().map(|vehicle| vehicle.name.clone());
-        names.zip(world.states()).map(|(name, state)| (name, state.to_array())).collect()
+        states(&self.environment)
     }
 
     /// Ends the episode and returns its report as JSON; none before the first.
     fn finish(&mut self) -> PyResult<Option<String>> {
         let report = self.environment.finish().map_err(of_environment)?;
-        let text = report.map(|report| serde_json::to_string(&report)).transpose();
-        text.map_err(|error| bad_json("the report", &error))
+        report.map(|report| as_json("the report", &report)).transpose()
     }
 
     /// The picture of the world now: an array of rows, columns and red, green, blue; none before the first episode.
     fn picture<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArrayDyn<u8>>>> {
-        let Some(world) = self.environment.world() else { return Ok(None) };
-        let picture = py.detach(|| {
-            let scenario = world.scenario().clone();
-            let now = scenario.vehicles.iter().zip(world.states()).enumerate().map(|(index, (vehicle, state))| {
-                let last = world.frame().and_then(|frame| frame.vehicles.get(index).cloned()).unwrap_or_default();
-                VehicleFrame { name: vehicle.name.clone(), state, ..last }
-            });
-            let frame =
-                Frame { time_s: world.time_s(), vehicles: now.collect(), ..world.frame().cloned().unwrap_or_default() };
-            let now = RecordedRun::to_draw(scenario, vec![frame], world.report());
-            interplay_presentation::animation::last_picture(&now)
-        });
-        picture.map(|([width, height], pixels)| shaped(py, pixels, &[height as usize, width as usize, 3])).transpose()
+        picture(py, &self.environment)
     }
 }
 

@@ -103,7 +103,7 @@ pub fn unfinished(error: interplay_simulation::run::RunError) -> PyErr {
 pub fn of_environment(error: EnvironmentError) -> PyErr {
     match error {
         EnvironmentError::Run(error) => unfinished(error),
-        EnvironmentError::Over => RunError::new_err(error.to_string()),
+        EnvironmentError::Over | EnvironmentError::OtherEpisode => RunError::new_err(error.to_string()),
         _ => PyValueError::new_err(error.to_string()),
     }
 }

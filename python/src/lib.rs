@@ -30,6 +30,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<environment::PyEnvironment>()?;
     module.add_class::<environment::PyPlanner>()?;
     module.add_class::<batch::PyBatch>()?;
+    module.add_class::<policy::PyNetwork>()?;
     module.add_class::<run::PyRecordedRun>()?;
     module.add_function(wrap_pyfunction!(command::main, module)?)?;
     module.add_function(wrap_pyfunction!(scenario::list_scenarios, module)?)?;
@@ -39,5 +40,6 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(building::identify, module)?)?;
     module.add_function(wrap_pyfunction!(policy::register_policy, module)?)?;
+    module.add_function(wrap_pyfunction!(policy::remove_policy, module)?)?;
     Ok(())
 }

@@ -5,18 +5,22 @@ use std::sync::{Arc, LazyLock, PoisonError, RwLock};
 
 use interplay_planners::prediction::Prediction;
 use interplay_planners::scene::inferred_futures::InferredFutures;
-use interplay_planners::{Drive, DriverKind, Plan, PlanError, Scene};
-use interplay_simulation::environment::{Action, AgentInterface, AgentView, Policy, PolicyDriver, PolicyError};
+use interplay_planners::{Drive, DriverKind, DriverSettingError, Plan, PlanError, Scene};
+use interplay_simulation::environment::{
+    Action, AgentInterface, AgentView, NetworkPolicy, Policy, PolicyDriver, PolicyError,
+};
 use numpy::{IntoPyArray, PyReadonlyArrayDyn};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::arrays::numbers;
+use crate::environment::as_json;
 
-/// The functions that were registered, by name.
-static POLICIES: LazyLock<RwLock<HashMap<String, Arc<Py<PyAny>>>>> = LazyLock::new(RwLock::default);
+/// The functions that are registered, by name and number of the registration.
+static POLICIES: LazyLock<RwLock<HashMap<(String, u64), Arc<Py<PyAny>>>>> = LazyLock::new(RwLock::default);
 
 /// A function of Python from an observation, with the kind and shape of each view in it, to an action.
 struct PythonFunction {
@@ -41,20 +45,62 @@ impl Policy for PythonFunction {
     }
 }
 
-/// Registers a function under a name, in place of any before it. It is given the flat observation, with the kind and shape of each
-/// view in it, and returns the flat action.
+/// Registers a function under a name and a number; whether the place was free. It is given the flat observation, with the kind and
+/// shape of each view in it, and returns the flat action.
 #[pyfunction]
-pub fn register_policy(name: String, function: Py<PyAny>) {
-    let mut policies = POLICIES.write().unwrap_or_else(PoisonError::into_inner);
-    policies.insert(name, Arc::new(function));
+pub fn register_policy(py: Python<'_>, name: String, registration: u64, function: Py<PyAny>) -> bool {
+    py.detach(|| {
+        let mut policies = POLICIES.write().unwrap_or_else(PoisonError::into_inner);
+        let place = (name, registration);
+        let is_free = !policies.contains_key(&place);
+        if is_free {
+            policies.insert(place, Arc::new(function));
+        }
+        is_free
+    })
+}
+
+/// Takes away a registered function.
+#[pyfunction]
+pub fn remove_policy(py: Python<'_>, name: String, registration: u64) {
+    let removed = py.detach(|| POLICIES.write().unwrap_or_else(PoisonError::into_inner).remove(&(name, registration)));
+    // The function is dropped without the lock: what Python does then may register another.
+    drop(removed);
+}
+
+/// A trained network of a `.safetensors` file, as it drives with `kind = "policy"`.
+#[pyclass(name = "Network", module = "interplay._native", frozen)]
+pub struct PyNetwork(NetworkPolicy);
+
+#[pymethods]
+impl PyNetwork {
+    /// Reads the file.
+    #[new]
+    fn new(file: String) -> PyResult<Self> {
+        let fault = |reason: String| PyValueError::new_err(format!("`{file}` {reason}"));
+        NetworkPolicy::of_file(file.clone()).map(PyNetwork).map_err(fault)
+    }
+
+    /// The views as JSON, the kind of action as JSON, and the digest of the file.
+    fn about(&self) -> PyResult<(String, String, String)> {
+        let (views, action, digest) = self.0.about().map_err(PyValueError::new_err)?;
+        Ok((as_json("the views", &views)?, as_json("the action", &action)?, digest.to_owned()))
+    }
+
+    /// The outputs of the last layer for one flat observation, and the flat action.
+    fn decide(&self, observation: PyReadonlyArrayDyn<'_, f32>) -> PyResult<(Vec<f64>, Vec<f32>)> {
+        self.0.decide(&numbers(&observation)).map_err(|reason| PyValueError::new_err(format!("the network {reason}")))
+    }
 }
 
 /// A function of Python as a driver: what it sees and decides, and which one it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PythonPolicy {
-    /// The name under which the function was registered.
+    /// The name under which the function is registered,
     pub policy: String,
+    /// and the number of its registration, which tells functions of one name apart.
+    pub registration: u64,
     /// What tells its results from those of earlier versions.
     pub version: String,
     /// What it sees.
@@ -69,6 +115,7 @@ impl Default for PythonPolicy {
     fn default() -> Self {
         PythonPolicy {
             policy: String::new(),
+            registration: 0,
             version: String::new(),
             observations: vec![AgentView::Kinematics(Default::default())],
             action: Action::Continuous,
@@ -98,6 +145,13 @@ impl DriverKind for PythonPolicy {
     fn description(&self) -> String {
         self.policy.clone()
     }
+
+    /// What an environment would refuse is refused here, too.
+    fn check(&self, _: usize) -> Result<(), DriverSettingError> {
+        let fault = self.observations.iter().find_map(AgentView::fault);
+        let remedy = "the bounds are those of environments".to_owned();
+        fault.map_or(Ok(()), |reason| Err(DriverSettingError::Unfit { key: "observations", reason, remedy }))
+    }
 }
 
 /// The driver before it knows how long its plans are.
@@ -110,9 +164,10 @@ struct Waiting {
 impl Drive for Waiting {
     fn plan(&mut self, scene: &Scene, outlook: &InferredFutures) -> Result<Plan, PlanError> {
         if self.driver.is_none() {
-            let PythonPolicy { policy, observations, action, decision_s, .. } = &self.settings;
+            let PythonPolicy { policy, registration, observations, action, decision_s, .. } = &self.settings;
             let policies = POLICIES.read().unwrap_or_else(PoisonError::into_inner);
-            let found = policies.get(policy).cloned();
+            let found = policies.get(&(policy.clone(), *registration)).cloned();
+            drop(policies);
             let function = found.ok_or_else(|| PlanError::BadInput(format!("no function `{policy}` is registered")))?;
             let interface = AgentInterface::new(observations, *action, scene.horizon);
             let function = Arc::new(PythonFunction { function, views: views(&interface) });

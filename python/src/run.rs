@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 use interplay::run_outputs::{OutputError, RunOutputs};
 use interplay_presentation::animation::{AnimationFormat, encoded};
 use interplay_presentation::figures::{FrameLog, RecordedRun};
 use interplay_presentation::record::{OpenRecording, Recorder, Sink};
-use interplay_simulation::run::run_with_counterfactuals;
+use interplay_simulation::run::{add_counterfactuals, run_unless};
 use interplay_simulation::watch::Watcher;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -17,7 +18,7 @@ use pyo3::types::{PyBytes, PyDict};
 use crate::errors::{RunError, refused, unfinished};
 use crate::frames;
 use crate::scenario::PyScenario;
-use crate::threads::on_all_cores;
+use crate::threads::{interruptible, on_all_cores};
 
 /// A finished run: its report, and all its ticks.
 #[pyclass(name = "RecordedRun", module = "interplay._native", frozen)]
@@ -29,12 +30,13 @@ fn unwritten(error: impl std::fmt::Display) -> PyErr {
 
 /// Runs a scenario and its counterfactuals, and writes a recording and the requested outputs: paths by the flags of the command.
 #[pyfunction]
-#[pyo3(signature = (scenario, record=None, outputs=None))]
+#[pyo3(signature = (scenario, record=None, outputs=None, is_cancelled=None))]
 pub fn run(
     py: Python<'_>,
     scenario: &PyScenario,
     record: Option<PathBuf>,
     outputs: Option<BTreeMap<String, String>>,
+    is_cancelled: Option<Py<PyAny>>,
 ) -> PyResult<PyRecordedRun> {
     refuse_external(scenario)?;
     let mut asked = RunOutputs::default();
@@ -50,7 +52,7 @@ pub fn run(
     }
     let (name, stated) = (scenario.name.clone(), Arc::clone(&scenario.scenario));
     let command = vec!["interplay".to_owned(), "run".to_owned(), scenario.source.clone()];
-    py.detach(|| {
+    interruptible(py, is_cancelled.as_ref(), |ended| {
         let frame_log = FrameLog::default();
         let mut watchers: Vec<Box<dyn Watcher>> = vec![Box::new(frame_log.clone())];
         let recording = record.map(|path| Recorder::begin(&stated, &name, &Sink::File(path)).map(OpenRecording::new));
@@ -58,7 +60,11 @@ pub fn run(
         watchers.extend(recording.clone().map(|recording| Box::new(recording) as Box<dyn Watcher>));
         let mut begun = asked.begin(&stated, &command[2]).map_err(without_output)?;
         watchers.extend(begun.watchers());
-        let report = on_all_cores(|| run_with_counterfactuals(&name, &stated, watchers))?.map_err(unfinished)?;
+        let is_ended = || ended.load(Ordering::Relaxed);
+        let mut report = run_unless(&is_ended, &name, &stated, watchers).map_err(unfinished)?;
+        if !stated.counterfactuals.is_empty() {
+            on_all_cores(|| add_counterfactuals(&is_ended, &name, &stated, &mut report))?.map_err(unfinished)?;
+        }
         recording.map_or(Ok(()), |recording| recording.close(&report)).map_err(unwritten)?;
         let scenario = (*stated).clone();
         let frames = frame_log.frames();
@@ -94,6 +100,11 @@ impl PyRecordedRun {
     /// The report, the document of `interplay run --json`.
     fn report(&self) -> PyResult<String> {
         serde_json::to_string(&self.0.report).map_err(unwritten)
+    }
+
+    /// The scenario, as a value that can be run again.
+    fn scenario(&self) -> PyScenario {
+        PyScenario::of(self.0.scenario.clone(), &self.0.report.scenario, &self.0.command[2])
     }
 
     /// The summary of `interplay run`.

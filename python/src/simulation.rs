@@ -4,16 +4,17 @@ use std::sync::Arc;
 
 use interplay_planners::{Agent, Input};
 use interplay_scenarios::Scenario;
-use interplay_simulation::{Simulation, Snapshot};
+use interplay_simulation::{SavedRunError, Simulation, Snapshot};
 use numpy::PyReadonlyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::shaped;
-use crate::errors::{RunError, unfinished};
+use crate::environment::Remade;
+use crate::errors::{RunError, refused, unfinished};
 use crate::frames;
-use crate::scenario::PyScenario;
+use crate::scenario::{PyScenario, registry};
 
 /// A scenario as a world that Python steps, observes, controls, copies and resumes.
 #[pyclass(name = "Simulation", module = "interplay._native")]
@@ -34,9 +35,35 @@ impl PySnapshot {
         self.0.time_s()
     }
 
-    /// The snapshot as text, which `Simulation.load` reads.
+    /// The snapshot as text, which `Snapshot.from_json` reads.
     fn to_json(&self) -> PyResult<String> {
-        self.0.to_json().map_err(|error| RunError::new_err(error.to_string()))
+        self.0.to_json().map_err(unread)
+    }
+
+    /// The snapshot of such a text: it repeats the run, which takes as long as the run took.
+    #[staticmethod]
+    fn from_json(py: Python<'_>, text: &str) -> PyResult<Self> {
+        let registry = registry()?;
+        let snapshot = py.detach(|| Snapshot::from_json(text, registry)).map_err(unread)?;
+        Ok(PySnapshot(Arc::new(snapshot)))
+    }
+
+    /// It never changes.
+    fn __deepcopy__(own: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        own
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Remade<'py, (String,)>> {
+        Ok((py.get_type::<PySnapshot>().getattr("from_json")?, (self.to_json()?,)))
+    }
+}
+
+/// The exception for a snapshot that is not written or read as text.
+fn unread(error: SavedRunError) -> PyErr {
+    match error {
+        SavedRunError::Text(_) | SavedRunError::Format { .. } => PyValueError::new_err(error.to_string()),
+        SavedRunError::Scenario(error) => refused(error),
+        error => RunError::new_err(error.to_string()),
     }
 }
 
@@ -74,6 +101,24 @@ impl PySimulation {
         let scenario_name = scenario.name.clone();
         let world = py.detach(|| Simulation::watched(&scenario_name, &changed, Vec::new())).map_err(unfinished)?;
         Ok(PySimulation { world: Some(world), scenario: Arc::new(changed) })
+    }
+
+    /// A world that continues from a snapshot.
+    #[staticmethod]
+    fn resumed(py: Python<'_>, snapshot: &PySnapshot) -> PyResult<Self> {
+        let world = py.detach(|| snapshot.0.resume()).map_err(unfinished)?;
+        let scenario = Arc::new(world.scenario().clone());
+        Ok(PySimulation { world: Some(world), scenario })
+    }
+
+    fn __deepcopy__(&self, py: Python<'_>, _memo: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let world = self.world()?;
+        let copy = py.detach(|| world.fork()).map_err(unfinished)?;
+        Ok(PySimulation { world: Some(copy), scenario: Arc::clone(&self.scenario) })
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Remade<'py, (PySnapshot,)>> {
+        Ok((py.get_type::<PySimulation>().getattr("resumed")?, (self.snapshot(py)?,)))
     }
 
     /// Moves the world by a tick, or a step of the building, whichever comes next; whether there was one left.

@@ -33,6 +33,16 @@ def test_pettingzoo_has_nothing_to_say(scenario: str, agents: list[str] | None, 
         parallel_seed_test(lambda: parallel_env(scenario, agents, action=action), num_cycles=20)
 
 
+def test_the_state_of_the_world_is_that_of_all_vehicles() -> None:
+    from pettingzoo.test.state_test import test_parallel_env
+
+    env = parallel_env("lane-change/front-nice", ["ego"])
+    assert not env.state().any()
+    env.reset(seed=1)
+    assert env.state().shape == env.state_space.shape == (4 * len(env.scenario.vehicles),)
+    test_parallel_env(env)
+
+
 def acts(env: Any, value: float = 0.0) -> dict[str, Any]:
     """The same numbers for all agents."""
     return {agent: np.array([value, 0.0], np.float32) for agent in env.agents}

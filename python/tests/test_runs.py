@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import typing
 from pathlib import Path
 from typing import Any
 
@@ -201,3 +202,14 @@ def test_the_error_of_a_mapping_has_the_attributes_of_an_error() -> None:
     with pytest.raises(interplay.ScenarioError) as caught:
         interplay.identify(table, {"colour": 1})
     assert (caught.value.file, caught.value.line) == ("mapping", 1)
+
+
+def test_type_checkers_know_attributes_and_kinds(tmp_path: Path) -> None:
+    api = pytest.importorskip("mypy.api")
+    kinds = typing.get_args(interplay._policies.Kind)
+    assert sorted([*kinds, "policy"]) == sorted(interplay._native.driver_kinds())
+    code = 'import interplay\nreport = interplay.run("a", "idm")\nreport.{}\nreport.vehicles[0].{}\ninterplay.policy("{}")\n'
+    for words, errors in ((("digest", "driver", "idm"), 0), (("digset", "drivr", "imd"), 3)):
+        path = tmp_path / f"{words[0]}.py"
+        path.write_text(code.format(*words))
+        assert api.run([str(path)])[0].count("error:") == errors

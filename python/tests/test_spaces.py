@@ -19,8 +19,9 @@ from interplay.envs import InterplayEnv
 
 def test_every_family_has_an_environment() -> None:
     families = {row.name.split("/")[0] for row in interplay.list()}
-    names = {family.title().replace("-", "") for family in families}
-    assert {f"interplay/{name}-v0" for name in names} | {"interplay/Scenario-v0"} == set(IDENTIFIERS)
+    names = {family.title().replace("-", "") for family in families} | {"Scenario", "Street", "Highway", "Merge"}
+    discrete = {f"interplay/{name}-Discrete-v0" for name in names - {"Building"}}
+    assert {f"interplay/{name}-v0" for name in names} | discrete == set(IDENTIFIERS)
 
 
 @pytest.mark.parametrize("name", IDENTIFIERS)

@@ -13,6 +13,7 @@ from gymnasium.vector import AsyncVectorEnv, AutoresetMode, SyncVectorEnv
 import interplay
 from helpers import equal, refused
 from interplay.envs import InterplayEnv, InterplayVectorEnv
+from interplay.parallel import InterplayParallelEnv
 
 WORLDS = 3
 MODES = [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP, AutoresetMode.DISABLED]
@@ -162,3 +163,77 @@ def test_planners_of_ours_drive_all_worlds() -> None:
         if terminated.any():
             break
     assert list(info["ending"]) == ["goal", "goal"]
+
+
+def test_worlds_may_have_several_agents_in_rows() -> None:
+    agents = ["ego", "crossing"]
+    env = InterplayVectorEnv("intersection/nice", num_envs=2, agents=agents, autoreset_mode="SameStep")
+    both = InterplayParallelEnv("intersection/nice", agents)
+    seen, info = env.reset(seed=4)
+    single = both.reset(seed=4)[0]
+    assert env.num_envs == 4 and info["present"].all() and equal(seen[1], single["crossing"])
+    absent = resets = 0
+    for _ in range(80):
+        was = info["present"]
+        seen, rewards, terminated, truncated, info = env.step(np.tile(np.array([0.4, 0.0], np.float32), (4, 1)))
+        if both.agents:
+            single, expected, *_ = both.step({agent: np.array([0.4, 0.0], np.float32) for agent in both.agents})
+            assert all(rewards[agents.index(agent)] == reward for agent, reward in expected.items())
+        over = terminated | truncated
+        assert not (over & ~was).any() and not rewards[~was].any()
+        absent, resets = absent + int((~info["present"]).sum()), resets + int((info["present"] & ~was).sum())
+    assert absent and resets
+    assert "agent" in refused(lambda: InterplayVectorEnv(agent="ego", agents=["ego"]))
+
+
+def test_worlds_are_drawn_and_answer_questions() -> None:
+    env: Any = gymnasium.make_vec(
+        "interplay/Street-v0", num_envs=2, vectorization_mode="vector_entry_point", render_mode="rgb_array"
+    )
+    env.reset(seed=1)
+    pictures = env.render()
+    assert pictures is not None and [picture.shape for picture in pictures] == [(544, 720, 3)] * 2
+    assert len(set(env.get_attr("street"))) == 2 and env.call("time_s") == (0.0, 0.0)
+    assert all("ego" in states for states in env.call("states"))
+    assert "scenario" in refused(lambda: env.call("colour"), AttributeError)
+    assert "cannot be set" in refused(lambda: env.set_attr("street", 1), AttributeError)
+
+
+def test_a_reward_may_be_a_function() -> None:
+    def reward(terms: Any, info: Any) -> Any:
+        return 2.0 * terms["speed"] - terms["jerk"]
+
+    env, one = InterplayVectorEnv(num_envs=2, reward=reward), InterplayEnv(reward=reward)
+    weighted = InterplayEnv(reward={**dict.fromkeys(one.reset(seed=3)[1]["reward_terms"], 0.0), "speed": 2.0, "jerk": -1.0})
+    env.reset(seed=3)
+    weighted.reset(seed=3)
+    action = np.array([0.5, 0.01], np.float32)
+    for _ in range(5):
+        found = env.step(np.tile(action, (2, 1)))[1]
+        assert found[0] == one.step(action)[1] == pytest.approx(weighted.step(action)[1])
+    assert found[0] != 0.0
+
+
+def test_each_episode_may_draw_its_scenario() -> None:
+    names = ["lane-change/front-nice", "intersection/nice", "roundabout/nice"]
+    env = InterplayEnv(names, set={"duration_s": 4.0})
+    found = [env.reset(seed=seed)[1]["street"] for seed in range(12)]
+    assert set(found) == set(names) and env.reset(seed=3)[1]["street"] == found[3]
+    assert "names and paths" in refused(lambda: InterplayEnv([]))
+
+
+@pytest.mark.parametrize("name", ["Highway", "Merge"])
+def test_tasks_of_highwayenv_have_its_settings(name: str) -> None:
+    env: Any = gymnasium.make(f"interplay/{name}-v0", disable_env_checker=True)
+    assert env.action_space.n == 5 and env.observation_space.shape == (5, 7) and env.unwrapped.decision_s == 1.0
+    first, second = env.reset(seed=1)[0], env.reset(seed=2)[0]
+    assert not equal(first, second)
+    info, rewards = {}, []
+    while "ending" not in info:
+        _, reward, _, _, info = env.step(1)
+        rewards.append(reward)
+    assert info["ending"] in ("time", "contact") and max(rewards) <= 0.4 + 1e-9
+    worlds = gymnasium.make_vec(f"interplay/{name}-v0", num_envs=2, vectorization_mode="vector_entry_point")
+    assert equal(worlds.reset(seed=1)[0][0], first)
+    flat = gymnasium.make(f"interplay/{name}-Discrete-v0", disable_env_checker=True).reset(seed=1)[0]
+    assert equal(flat, first.ravel())

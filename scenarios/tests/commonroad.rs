@@ -77,6 +77,43 @@ fn the_ego_of_a_map_without_a_problem_starts_on_a_lane_for_vehicles() {
     assert_eq!(ego.route.legs.iter().map(|leg| leg.lane.as_str()).collect::<Vec<_>>(), ["l1"]);
 }
 
+/// The only successor begins at an angle of 45°, so that no route leads into it.
+#[test]
+fn the_ego_stops_where_its_route_ends_although_the_map_goes_on() {
+    let bound = |side: &str, [from, to]: [[f64; 2]; 2]| {
+        let points = [from, to].map(|[x, y]| format!("<point><x>{x}</x><y>{y}</y></point>"));
+        format!("<{side}Bound>{}</{side}Bound>", points.concat())
+    };
+    let first = bound("left", [[0.0, 3.5], [60.0, 3.5]]) + &bound("right", [[0.0, 0.0], [60.0, 0.0]]);
+    let next = bound("left", [[58.7, 3.0], [78.7, 23.0]]) + &bound("right", [[61.3, 0.5], [81.3, 20.5]]);
+    let goes_on = |next: &str| {
+        format!(
+            "<commonRoad timeStepSize=\"0.1\" commonRoadVersion=\"2020a\" benchmarkID=\"ZAM_Own-3_1_T-1\">\
+             <lanelet id=\"1\">{first}{next}</lanelet></commonRoad>"
+        )
+    };
+    let stops = |text: &str| {
+        let imported = import_commonroad("own", text, &ImportOptions::default()).expect("a sound scenario");
+        let is_noted = imported.notes.iter().any(|note| note.contains("the ego stops there"));
+        let stops = resolved(&imported).ego().expect("an ego").stay.stops_at_end;
+        assert_eq!(stops, is_noted, "{:?}", imported.notes);
+        stops
+    };
+    let turns = format!("<successor ref=\"2\"/></lanelet><lanelet id=\"2\">{next}");
+    assert!(stops(&goes_on(&turns)) && !stops(&goes_on("")));
+}
+
+/// Without a planning problem, `--planner` drives the first vehicle, which needs the lanes of its record.
+#[test]
+fn the_first_record_of_a_map_without_an_ego_has_a_route() {
+    let (text, [begin, end]) = (text("motorway.xml"), ["<planningProblem", "</planningProblem>"]);
+    let [from, to] = [text.find(begin), text.find(end).map(|at| at + end.len())].map(|at| at.expect("a problem"));
+    let text = format!("{}{}", &text[..from], &text[to..]);
+    let imported = import_commonroad("own", &text, &ImportOptions::default()).expect("a sound scenario");
+    assert_eq!(imported.file.vehicles[0].route, ["l1", "l3"]);
+    assert_eq!(resolved(&imported).vehicles[0].name, "car-21");
+}
+
 #[test]
 fn the_plaque_of_an_all_way_stop_is_read() {
     let imported = imported("all-way-stop.xml");

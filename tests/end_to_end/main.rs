@@ -2,10 +2,11 @@
 //!
 //! - what a user sees: [`authored`], [`replacements`], [`bad_input`], [`output`], [`recordings`], [`suite`],
 //!   [`figures`], [`animations`], [`authoring`], [`documents`], [`gallery`], [`book`], [`drift`], [`limits`]
-//! - many runs from one plan: [`sweeps`]; runs as tables: [`trajectories`]; runs as CommonRoad scenarios: [`exports`]
+//! - many runs from one plan: [`sweeps`]; runs as tables: [`trajectories`]; runs as CommonRoad
+//!   scenarios: [`exports`]
 //! - a user's files, terminal and server stay unharmed: [`unharmed`], [`faults`]
 //! - laws of every run: [`laws`], [`replay`], [`measures`], [`traffic`], [`collisions`], [`failures`], [`fork`],
-//!   [`causality`], [`seen_streets`], [`next_street`]
+//!   [`causality`], [`seen_streets`], [`next_street`], [`every_street`], [`long_vehicles`]
 //! - changes of a scenario: [`counterfactuals`], [`mutation`]
 //! - extensions by users: [`own`]
 //! - plants with tyres, friction and lag: [`plants`]
@@ -32,6 +33,7 @@ mod counterfactuals;
 mod determinism;
 mod documents;
 mod drift;
+mod every_street;
 mod exports;
 mod failures;
 mod faults;
@@ -46,6 +48,7 @@ mod laws;
 mod learning;
 mod limits;
 mod lines;
+mod long_vehicles;
 mod measures;
 mod modules;
 mod mutation;

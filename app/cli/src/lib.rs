@@ -24,6 +24,7 @@ use std::sync::LazyLock;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use interplay_scenarios::Registry;
+use interplay_simulation::environment::RegisterPolicies;
 use interplay_simulation::measure::RegisterMetrics;
 
 use crate::output::error::ExitStatus;
@@ -95,7 +96,7 @@ pub fn main_with(registry: &Registry) -> ExitCode {
 /// Runs the command inside another program, with a registry and these arguments, of which the first is the program's
 /// name. Returns the exit code.
 pub fn exit_code(registry: &Registry, arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let ending = match registry.clone().with_own_metrics() {
+    let ending = match registry.clone().with_own_metrics().and_then(RegisterPolicies::with_policies) {
         Ok(registry) => run_command(&registry, arguments),
         Err(error) => {
             output::print_error(&error.to_string());

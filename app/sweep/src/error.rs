@@ -49,6 +49,9 @@ pub enum SweepError {
     /// A recording could not be written.
     #[error("{0}")]
     Recording(String),
+    /// The caller has ended the sweep.
+    #[error("the sweep was cancelled; its rows are kept, and the same call makes the rest")]
+    Cancelled,
 }
 
 impl SweepError {

@@ -61,4 +61,4 @@ pub use merge::{MergedSweep, merge};
 pub use people::{PeopleRows, PersonRun};
 pub use row::SweepRow;
 pub use shard::{Shard, ShardError};
-pub use sweep::{KeepRecording, RUNS_FILE, SweepOptions, SweepOutcome, check, sweep};
+pub use sweep::{KeepRecording, RUNS_FILE, SweepOptions, SweepOutcome, check, sweep, sweep_unless};

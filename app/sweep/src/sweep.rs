@@ -82,6 +82,18 @@ pub(crate) fn plan_digest(plan: &SweepPlan) -> String {
 /// # Errors
 /// If runs are refused, before any is made, or if files cannot be read or written.
 pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcome, SweepError> {
+    sweep_unless(&|| false, plan, options)
+}
+
+/// As [`sweep`], until `is_cancelled`, which is asked before each run. The runs in progress are completed and kept.
+///
+/// # Errors
+/// As [`sweep`]; [`SweepError::Cancelled`].
+pub fn sweep_unless(
+    is_cancelled: &(dyn Fn() -> bool + Sync),
+    plan: &SweepPlan,
+    options: &SweepOptions<'_>,
+) -> Result<SweepOutcome, SweepError> {
     let (folder, shard) = (options.folder, options.shard);
     refuse_file_in_the_way(folder)?;
     refuse_two_of_a_name(plan)?;
@@ -93,6 +105,9 @@ pub fn sweep(plan: &SweepPlan, options: &SweepOptions<'_>) -> Result<SweepOutcom
     let journal = Mutex::new(Journal::open(&path_of(folder, shard))?);
     (options.begin)(part.to_make.len() as u64, part.there);
     part.to_make.par_iter().with_max_len(1).try_for_each(|(key, index)| {
+        if is_cancelled() {
+            return Err(SweepError::Cancelled);
+        }
         let point = plan.point(*index);
         let scenario = plan.scenario(&point).map_err(|error| SweepError::Refused(Box::new(error)))?;
         let trajectories = options.trajectories.then(|| TableFile::of_run(folder, key));

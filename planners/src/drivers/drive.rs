@@ -60,6 +60,11 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
         0.0
     }
 
+    /// How long it follows a slow vehicle before it overtakes on the lane of oncoming traffic, for 1/10 scale cars \[s\].
+    fn patience_s(&self) -> f64 {
+        0.0
+    }
+
     /// Whether its plans branch: then its [`InferredFutures`] has what each of the others may do.
     fn branches(&self) -> bool {
         false

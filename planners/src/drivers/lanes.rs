@@ -121,14 +121,14 @@ impl RoadLanes {
 }
 
 /// Whether a vehicle is at least partly in a lane of the ego's road at time `t` of its prediction.
-fn is_in(scene: &Scene, lanes: &RoadLanes, lane: usize, other: &Agent, t: usize) -> bool {
+pub(crate) fn is_in(scene: &Scene, lanes: &RoadLanes, lane: usize, other: &Agent, t: usize) -> bool {
     let lateral = scene.ego.route.across(at(other, t).position());
     let reach = 0.5 * (lanes.width_m + other.body.width_m);
     (lateral - lanes.centre_m(lane)).abs() < reach
 }
 
 /// Where a vehicle is at time `t` of its prediction.
-fn at(other: &Agent, t: usize) -> State {
+pub(crate) fn at(other: &Agent, t: usize) -> State {
     other.prediction.states.get(t).or(other.prediction.states.last()).copied().unwrap_or(other.state)
 }
 

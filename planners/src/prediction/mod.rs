@@ -127,15 +127,18 @@ pub fn steadily_along(route: &Route, body: &Body, state: &State, horizon: usize,
 }
 
 /// Inputs of a constant acceleration of the planning vehicle: without steering on a straight road, along a curved one at the
-/// present lateral position.
+/// present lateral position, or at the nearest one at which the body is on the road.
 pub fn steady_inputs(scene: &Scene, acceleration_mps2: f64) -> Vec<Input> {
     let ego = &scene.ego;
     let mut inputs = steady(&ego.state, acceleration_mps2, &ego.limits, scene.horizon, scene.step_s);
     if ego.route.straight().is_none() {
-        let across_m = ego.across_m();
-        let (model, mut state) = (scene.model(), ego.state);
+        let (at, half_m) = (ego.place(), 0.5 * ego.body.width_m);
+        let [right_m, left_m] = ego.route.edges_before_end_m(at.along_m);
+        let across_m = at.across_m.min(left_m - half_m).max(right_m + half_m);
+        let (model, mut state, mut last_rad) = (scene.model(), ego.state, ego.previous_input.steering_rad);
         for input in &mut inputs {
-            input.steering_rad = steer(ego, &state, across_m);
+            last_rad = ego.limits.steering_towards_rad(last_rad, steer(ego, &state, across_m), scene.step_s);
+            input.steering_rad = last_rad;
             state = model.step(&state, input);
         }
     }
@@ -169,6 +172,25 @@ mod tests {
         for (a, b) in predicted.states.iter().zip(&states) {
             assert!((a.x_m - b.x_m).abs() < 1e-12 && (a.y_m - b.y_m).abs() < 1e-12);
         }
+    }
+
+    /// The body is beyond the right edge by a metre at first, and its wheels turn slowly.
+    #[test]
+    fn a_steady_motion_leads_back_onto_the_road() {
+        use crate::{CentreLine, Profile, fixture};
+        let mut ego = fixture::real_car(0.0, 8.0);
+        let [right, left, half_width] = [-1.75, 1.75, 1.75].map(Profile::constant);
+        ego.route = Arc::new(Route::curved(CentreLine::straight(0.0), right, left, half_width));
+        ego.state.y_m = -1.75 + 0.5 * ego.body.width_m - 1.0;
+        ego.limits.steering_rate_max_radps = Some(0.4);
+        let mut scene = fixture::scene(ego, Vec::new());
+        (scene.step_s, scene.horizon) = (0.2, 40);
+        let inputs = steady_inputs(&scene, -1.0);
+        let turns = inputs.windows(2).map(|pair| (pair[1].steering_rad - pair[0].steering_rad).abs());
+        assert!(turns.fold(inputs[0].steering_rad.abs(), f64::max) < 0.08 + 1e-9);
+        let mut states = Vec::new();
+        scene.model().roll_out(&scene.ego.state, &inputs, &mut states);
+        assert!(scene.ego.route.contains(&scene.ego.body, states.last().expect("states"), 0.05), "{states:?}");
     }
 
     #[test]

@@ -47,11 +47,20 @@ pub(crate) fn admissible(agent: &Agent, state: &State, wanted_mps2: f64, step_s:
 }
 
 impl Agent {
+    /// The steering angle with which it follows the curve of its road where it is \[rad\].
+    pub fn steering_along_road_rad(&self) -> f64 {
+        let at = self.route.locate(self.state.position(), None);
+        geometry(self, &self.state).correct(0.0, 0.0, self.state.speed_mps, at.curvature_1pm)
+    }
+
     /// The input nearest to a wanted one to which a driver changes comfortably within a time, and harder where it must.
     pub(crate) fn comfortably(&self, last: &Input, wanted: Input, speed_mps: f64, step_s: f64) -> Input {
-        let Some(comfort) = self.limits.comfort else { return wanted };
-        let jerk_mps2 = comfort.jerk_mps3 * self.urgency * self.urgency * step_s;
         let turn_rad = self.limits.steering_rate_radps(self.urgency).map_or(f64::INFINITY, |rate| rate * step_s);
+        let Some(comfort) = self.limits.comfort else {
+            let steering_rad = self.limits.steering_towards_rad(last.steering_rad, wanted.steering_rad, step_s);
+            return Input { steering_rad, ..wanted };
+        };
+        let jerk_mps2 = comfort.jerk_mps3 * self.urgency * self.urgency * step_s;
         let near = |last: f64, wanted: f64, most: f64| wanted.max(last - most).min(last + most);
         let next_mps = speed_mps + step_s * last.acceleration_mps2.min(0.0);
         let acceleration_mps2 = wanted.acceleration_mps2.max(-comfort.braking_at_mps2(self.urgency, next_mps));
@@ -98,6 +107,23 @@ mod tests {
             let farthest = trajectory.states.iter().map(|state| state.y_m).fold(0.0, f64::max);
             assert!(farthest < 0.57, "{farthest}");
         }
+    }
+
+    /// On a circle of 20 m a step turns by `v h/R`.
+    #[test]
+    fn wheels_along_the_road_follow_its_curve() {
+        use crate::road::centre_line::Piece;
+        use crate::{CentreLine, Profile, Route, fixture};
+        let arc = [Piece::Arc { length_m: 60.0, curvature_1pm: 0.05 }];
+        let line = CentreLine::from_pieces([0.0, 0.0], 0.0, &arc).expect("a line");
+        let [right, left, half_width] = [-1.75, 1.75, 1.75].map(Profile::constant);
+        let mut agent = fixture::real_car(10.0, 6.0);
+        let at = line.at(10.0);
+        [agent.state.x_m, agent.state.y_m] = at.position;
+        agent.route = std::sync::Arc::new(Route::curved(line, right, left, half_width));
+        let input = Input { acceleration_mps2: 0.0, steering_rad: agent.steering_along_road_rad() };
+        let turned_rad = Bicycle::new(&agent.body, 0.1).step(&agent.state, &input).heading_rad;
+        assert!((turned_rad - 6.0 * 0.1 / 20.0).abs() < 1e-6, "{turned_rad}");
     }
 
     #[test]

@@ -28,6 +28,8 @@ pub(super) const PLANNER_SHARE: f64 = 0.7;
 pub(super) const OPENING: f64 = 0.1;
 /// Length of the ellipse that contains two bodies, as a multiple of theirs.
 const CONTAINING_RATIO: f64 = 1.8;
+/// In a gap, a body is kept out of this share of the space between it and the other one.
+const FITTING_SHARE: f64 = 0.6;
 /// Bodies side by side keep this far apart, for 1/10 scale cars \[m\].
 pub(super) const ASIDE_M: f64 = 0.04;
 /// A vehicle beyond the line of its lane by less than this stays in it, for 1/10 scale cars \[m\].
@@ -142,7 +144,12 @@ impl Scene {
         let [half_length_m, half_width_m] = other.half_extents_m(other.place().heading_rad);
         let along_m = 0.5 * (ego.front_m + ego.rear_m) + half_length_m;
         let beside_m = 0.5 * ego.width_m + half_width_m + ASIDE_M * ego.scale;
-        self.around(other, containing(along_m, beside_m), penalty)
+        let passes = self.ego.rules.passes.as_ref().filter(|_| other.is_obstacle);
+        let room_m = passes.map_or(f64::INFINITY, |obstacle| {
+            (self.ego.route.across(other.state.position()) - obstacle.pass_at_m).abs()
+        });
+        let touching_m = 0.5 * ego.width_m + half_width_m;
+        self.around(other, containing(along_m, beside_m).fitting(along_m, touching_m, room_m), penalty)
     }
 
     /// The ellipse that a planner asks another vehicle to leave it: the safety ellipse, and before or behind one in another lane of which
@@ -161,11 +168,14 @@ impl Scene {
     }
 
     /// Whether the safety ellipse around another vehicle concerns the planning vehicle; for a driver that knows comfort it does not once
-    /// their ways do not meet any more, nor where a line parts it from a vehicle that waits.
+    /// their ways do not meet any more, nor where a line parts it from a vehicle that waits, nor around one behind while it stays in its
+    /// lane: that one keeps its distance.
     pub(crate) fn minds(&self, other: &Agent) -> bool {
         let ego = &self.ego;
         let is_beside = || ego.is_waited_for_by(other) && self.is_parted_by_lane_line(other);
-        ego.limits.comfort.is_none() || ego.may_meet(other) && !is_beside()
+        let stays = self.knowledge.is_of_motion() && ego.rules.stays_in_lane;
+        let is_behind = || stays && ego.shares_lane_with(other) && ego.lead_of(other) < 0.0;
+        ego.limits.comfort.is_none() || ego.may_meet(other) && !is_beside() && !is_behind()
     }
 
     /// The safety ellipses around a prediction of another vehicle for a planner: longer by a time gap for one on the same road if the
@@ -213,10 +223,45 @@ pub(crate) fn containing(half_length_m: f64, half_width_m: f64) -> SafetyEllipse
     SafetyEllipse { along_m: CONTAINING_RATIO * half_length_m, across_m: half_width_m / share }
 }
 
+impl SafetyEllipse {
+    /// The ellipse, made narrower and longer where the way past it is nearer to its middle than its edge, as in a gap. It contains the
+    /// rectangle of the half lengths and half widths of both bodies, which touch at `touching_m` \[m\].
+    pub(crate) fn fitting(self, half_length_m: f64, touching_m: f64, room_m: f64) -> SafetyEllipse {
+        if room_m >= self.across_m || room_m <= touching_m {
+            return self;
+        }
+        let across_m = touching_m + FITTING_SHARE * (room_m - touching_m);
+        let share = (1.0 - (touching_m / across_m).powi(2)).sqrt();
+        SafetyEllipse { along_m: half_length_m / share, across_m }
+    }
+}
+
 /// A safety ellipse around each centre, along a road.
 pub(crate) fn ellipses(safety: SafetyEllipse, route: &Route, centres: &[[f64; 2]]) -> Vec<OrientedEllipse> {
     match route.straight() {
         Some(corridor) => vec![safety.oriented(corridor.heading_rad); centres.len()],
         None => route.locate_all(centres).map(|at| safety.oriented(at.heading_rad)).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{real_car, scene};
+    use crate::scene::Knowledge;
+    use crate::vehicle::ComfortLimits;
+
+    #[test]
+    fn people_who_stay_in_their_lane_do_not_avoid_vehicles_behind() {
+        let mut ego = real_car(0.0, 2.0);
+        ego.limits.comfort = Some(ComfortLimits::default());
+        let minds = |x_m: f64, stays_in_lane: bool, knowledge: Knowledge| {
+            let mut ego = ego.clone();
+            ego.rules.stays_in_lane = stays_in_lane;
+            Scene { knowledge, ..scene(ego, Vec::new()) }.minds(&real_car(x_m, 1.0))
+        };
+        let motion = Knowledge::Motion { late_steps: 0 };
+        assert!(!minds(-8.0, true, motion));
+        assert!(minds(-8.0, false, motion) && minds(8.0, true, motion) && minds(-8.0, true, Knowledge::Plans));
     }
 }

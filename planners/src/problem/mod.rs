@@ -19,7 +19,7 @@ use crate::vehicle::slip_on_curve_rad;
 use crate::{Agent, Goal, SafetyEllipse, Scene};
 
 /// Cost of leaving the road for people, as a multiple of that for the drivers of the dissertation: more than to come near a vehicle, for
-/// which a plan would otherwise trade the road.
+/// which a plan would otherwise trade the road. In danger it grows with the urgency.
 const PEOPLE_ON_ROAD: f64 = 5.0;
 
 impl Agent {
@@ -28,7 +28,8 @@ impl Agent {
         let (route, mut penalty) = (Arc::clone(&self.route), Penalty::road_edge(self.body.scale));
         if self.limits.comfort.is_some() {
             let Penalty { linear, quadratic } = penalty;
-            penalty = Penalty { linear: PEOPLE_ON_ROAD * linear, quadratic: PEOPLE_ON_ROAD * quadratic };
+            let ratio = PEOPLE_ON_ROAD * self.urgency;
+            penalty = Penalty { linear: ratio * linear, quadratic: ratio * quadratic };
         }
         RoadEdge { vehicle, body: self.body, route, penalty }
     }

@@ -99,10 +99,26 @@ impl Agent {
         horizon: usize,
         step_s: f64,
     ) -> Vec<f64> {
+        let permitted_mps = self.up_to_its_gap(permitted_mps, horizon, step_s);
         let Some(line_m) = self.rules.stop_line_m else { return permitted_mps };
         let approach_mps = self.approach_speeds_mps(line_m, wanted_mps, horizon, step_s);
         let permitted_mps = permitted_mps.into_iter().chain(std::iter::repeat(f64::INFINITY));
         permitted_mps.zip(approach_mps).map(|(limit_mps, speed_mps)| speed_mps.min(limit_mps)).collect()
+    }
+
+    /// The same, lowered until there is room to merge to the speed with which it comes there then, in comfort.
+    fn up_to_its_gap(&self, mut permitted_mps: Vec<f64>, horizon: usize, step_s: f64) -> Vec<f64> {
+        let (Some(most_mps), Some(merging)) = (self.merging_speed_mps(), &self.rules.merging) else {
+            return permitted_mps;
+        };
+        permitted_mps.resize(horizon, f64::INFINITY);
+        let until = (merging.in_s / step_s) as usize;
+        let slower_mps = self.comfortable_braking_mps2() * step_s;
+        for (stage, permitted_mps) in permitted_mps.iter_mut().enumerate().take(until + 1) {
+            let reached_mps = self.state.speed_mps - slower_mps * (stage + 1) as f64;
+            *permitted_mps = permitted_mps.min(most_mps.max(reached_mps));
+        }
+        permitted_mps
     }
 }
 

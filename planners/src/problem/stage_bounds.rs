@@ -5,6 +5,8 @@
 //! input of a plan is applied, so that the driven motion keeps the bound, and a plan is free where it only promises. A vehicle that has
 //! to brake harder than is comfortable ([`urgency`](Agent::urgency)) has wider bounds, up to those of its body.
 //!
+//! Where the largest steering rate of the wheels is stated, each change of the angle from one stage to the next keeps it, too, softly.
+//!
 //! Speeds are bounded so that there is always a motion within all bounds: from each speed that is allowed at a stage, one that is
 //! allowed at the next stage can be reached.
 
@@ -12,6 +14,8 @@ use crate::trajectory::StageBounds;
 use crate::vehicle::ComfortLimits;
 use crate::{Agent, Limits};
 
+/// Plans turn the wheels with this share of the largest steering rate that is stated, so that some is left to correct the motion.
+const TURNING_SHARE: f64 = 0.8;
 /// Largest lateral acceleration in danger, as a multiple of the comfortable one.
 const MOST_LATERAL_URGENCY: f64 = 2.0;
 
@@ -25,6 +29,8 @@ impl Agent {
             return Vec::new();
         }
         let steering_max_rad = self.steering_bounds_rad(horizon);
+        let turning_wheels = steering_rate.filter(|_| limits.steering_rate_max_radps.is_some());
+        let turn_rad = turning_wheels.map_or(f64::INFINITY, |rate_radps| TURNING_SHARE * rate_radps * step_s);
         let mut bounds: Vec<StageBounds> = (0..horizon)
             .map(|t| {
                 let steering_max_rad = steering_max_rad.get(t).copied().unwrap_or(limits.steering_max_rad);
@@ -33,6 +39,7 @@ impl Agent {
                     acceleration_mps2: [limits.acceleration_min_mps2, limits.acceleration_max_mps2],
                     steering_rad: self.steerable([-steering_max_rad, steering_max_rad], turned_rad),
                     speed_mps: [limits.speed_min_mps, self.highest_speed_mps(t, caps_mps)],
+                    turn_rad,
                 };
                 limits.comfort.map_or(bounds, |comfort| self.comfortable(bounds, &comfort, t, step_s))
             })

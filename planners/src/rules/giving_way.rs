@@ -20,7 +20,7 @@ const SPARE_TIMES: f64 = 1.0;
 const REFERENCE_MPS2: f64 = 1.0;
 
 /// A driver enters a conflict with this share of its strongest acceleration.
-const ENTERING_SHARE: f64 = 0.6;
+pub(crate) const ENTERING_SHARE: f64 = 0.6;
 
 /// A driver brakes for a line with at most this share of its strongest braking.
 const BRAKING_SHARE: f64 = 0.8;
@@ -134,7 +134,7 @@ pub(crate) fn front_m(agent: &Agent) -> f64 {
     agent.along_m() + agent.body.front_m
 }
 
-fn length_m(agent: &Agent) -> f64 {
+pub(crate) fn length_m(agent: &Agent) -> f64 {
     agent.body.front_m + agent.body.rear_m
 }
 
@@ -157,7 +157,7 @@ pub(crate) fn can_stop(agent: &Agent, place_m: f64) -> bool {
 }
 
 /// The time for a way from a speed on, with a constant acceleration up to a wanted speed \[s\].
-fn time_s(way_m: f64, speed_mps: f64, wanted_mps: f64, acceleration_mps2: f64) -> f64 {
+pub(crate) fn time_s(way_m: f64, speed_mps: f64, wanted_mps: f64, acceleration_mps2: f64) -> f64 {
     let most_mps = wanted_mps.max(speed_mps);
     let until_s = (most_mps - speed_mps) / acceleration_mps2;
     let until_m = 0.5 * (speed_mps + most_mps) * until_s;

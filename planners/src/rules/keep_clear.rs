@@ -1,7 +1,7 @@
 //! Room behind a junction: no vehicle enters a way that crosses its own, such as a zebra crossing, unless it can leave it again.
 
 use crate::Agent;
-use crate::road::network::{ConflictKind, RouteConflict};
+use crate::road::network::RouteConflict;
 use crate::rules::giving_way::{can_stop, front_m, stopping_distance_m};
 
 /// A vehicle ahead below this speed stands, or will stand, for 1/10 scale cars \[m/s\]: 1.6 m/s of a real one.

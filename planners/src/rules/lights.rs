@@ -6,6 +6,10 @@ use crate::rules::giving_way::{can_stop, front_m, stopping_distance_m};
 
 /// At amber, who would have to brake harder than this goes on \[m/s²\].
 const AMBER_BRAKING_MPS2: f64 = 3.0;
+/// Who brakes at amber goes on braking, up to this \[m/s²\].
+const DECIDED_BRAKING_MPS2: f64 = 5.0;
+/// A vehicle brakes that decelerates more than this \[m/s²\].
+const BRAKES_MPS2: f64 = 0.3;
 
 /// The line of the next traffic light at which a vehicle has to stop now, along its route; none where it goes on \[m\].
 pub(super) fn line_m(agent: &Agent, time_s: f64) -> Option<f64> {
@@ -16,7 +20,9 @@ pub(super) fn line_m(agent: &Agent, time_s: f64) -> Option<f64> {
         match light.colour_at(time_s) {
             LightColour::Red | LightColour::RedAmber => can_stop(agent, leg.to_m - before_m),
             LightColour::Amber => {
-                let braking_m = agent.state.speed_mps * agent.state.speed_mps / (2.0 * AMBER_BRAKING_MPS2);
+                let brakes = agent.previous_input.acceleration_mps2 < -BRAKES_MPS2;
+                let most_mps2 = if brakes { DECIDED_BRAKING_MPS2 } else { AMBER_BRAKING_MPS2 };
+                let braking_m = agent.state.speed_mps * agent.state.speed_mps / (2.0 * most_mps2);
                 front_m + braking_m <= leg.to_m
             }
             LightColour::Green | LightColour::Off => false,

@@ -10,9 +10,11 @@
 //! - until it has stood there once, if the sign says so,
 //! - while a vehicle that goes first comes so soon that it could not clear the conflict before,
 //! - while a vehicle that goes first has stopped there first, because it waits for a third one,
-//! - while there is no room behind a way that crosses its own,
+//! - while it could not leave a way that crosses its own, for want of room behind,
 //! - while a vehicle is in the conflict, or past the own line towards it,
 //! - where the first to arrive goes first, while a vehicle waits that came before.
+//!
+//! Into the lane beside it, as from an acceleration lane, a vehicle merges without standing (`merging`).
 //!
 //! A vehicle that is past its line, or could no longer stop before it, goes on. Where vehicles wait for one another in a circle, the
 //! first to arrive goes; of two who arrive at once, the one to the right of the other, and else by the direction in which it comes.
@@ -22,8 +24,10 @@ pub(crate) mod giving_way;
 mod keep_clear;
 mod lane;
 mod lights;
+mod merging;
 mod obliged;
 pub(crate) mod obstacle;
+mod overtaking;
 mod queue;
 pub(crate) mod right_of_way;
 pub(crate) mod urgency;
@@ -35,11 +39,12 @@ pub(crate) use obliged::Obliged;
 
 use std::collections::BTreeMap;
 
+use crate::Scene;
 use crate::rules::giving_way::{Arrived, Pair, can_stop, signed_lines, stopping_distance_m};
 use crate::rules::obstacle::{Manoeuvre, ObstacleMemory};
+use crate::rules::overtaking::Overtaking;
 use crate::scene::relation::is_standing;
-pub use crate::scene::road_rules::{Obstacle, RoadRules, RuleKeeping};
-use crate::{Scene, State};
+pub use crate::scene::road_rules::{Merging, Obstacle, RoadRules, RuleKeeping};
 use waiting::Hold;
 
 /// What has to be remembered of the past to judge the present: which vehicle has arrived where, and when.
@@ -48,6 +53,8 @@ pub struct RuleBook {
     arrivals: Arrivals,
     /// Of each who keeps the rules: what stands in its way.
     obstacles: BTreeMap<String, ObstacleMemory>,
+    /// Of each among people who keeps the rules: which slow vehicle it overtakes.
+    overtaking: BTreeMap<String, Overtaking>,
 }
 
 impl RuleBook {
@@ -99,15 +106,25 @@ impl RuleBook {
     }
 
     /// Adds what an obstacle asks of the planning vehicle of a scene, if it keeps the rules: it leaves its lane for it only while no
-    /// vehicle comes. Before a vehicle that comes head-on in its lane, it brakes and goes to the edge. To be called once a tick.
-    pub(crate) fn hold_behind_obstacle(&mut self, scene: &mut Scene) {
-        if let Some(evasion) = wrong_way::evasion(scene) {
+    /// vehicle comes. Before a vehicle that comes head-on in its lane, it brakes and goes to the edge. `patience_s` is how long it follows a
+    /// slow vehicle before it overtakes, for 1/10 scale cars \[s\]. To be called once a tick.
+    pub(crate) fn hold_behind_obstacle(&mut self, scene: &mut Scene, patience_s: f64) {
+        let evasion = wrong_way::evasion(scene);
+        if let Some(evasion) = &evasion {
             scene.ego.rules.stop_before(evasion.line_m);
-            let along_m = scene.ego.along_m();
-            let [x_m, y_m] = scene.ego.route.position(along_m, evasion.across_m);
-            scene.goal.target = State { x_m, y_m, ..scene.goal.target };
+            scene.ego.rules.evades = Some(evasion.name.clone());
+            scene.drive_beside_goal(evasion.across_m);
         }
         let memory = self.obstacles.entry(scene.ego.name.clone()).or_default();
+        if let Some(other_lane_m) = overtaking::other_lane_m(&scene.ego).filter(|_| scene.knowledge.is_of_motion()) {
+            let overtaking = self.overtaking.entry(scene.ego.name.clone()).or_default();
+            let overtakes_at_m = overtaking.judge(scene, patience_s, other_lane_m).filter(|_| evasion.is_none());
+            scene.ego.rules.stays_in_lane = overtakes_at_m.is_none() && lane::is_in_lane(&scene.ego);
+            let returns = evasion.is_none() && memory.passing().is_none() && !scene.ego.rules.stays_in_lane;
+            if let Some(across_m) = overtakes_at_m.or(returns.then_some(0.0)) {
+                scene.drive_beside_goal(across_m);
+            }
+        }
         match memory.judge(scene) {
             Some(Manoeuvre::Wait(obstacle, waits_for)) => {
                 let line_m = obstacle.line_m(scene);
@@ -163,6 +180,10 @@ fn held([own, their]: [&Arrivals; 2], users: &[Obliged<'_>], vehicle: usize, lig
             if lights_m[by].is_some_and(|line_m| line_m <= conflict.their_m[0]) {
                 continue;
             }
+            // Into the lane beside it merges without standing.
+            if merging::is_from_beside(ego, other.agent, conflict) && !is_standing(other.agent) {
+                continue;
+            }
             let arrived = Arrived {
                 own: own.has_arrived(ego),
                 their: their.has_arrived(other.agent),
@@ -206,8 +227,8 @@ fn asked(arrivals: &Arrivals, user: &Obliged<'_>, users: &[Obliged<'_>], holds: 
     let stop_line_m = nearest_m.map(|line_m| line_m - before_m);
     let keeps_clear_behind =
         clear.filter(|(line_m, _)| Some(*line_m) == nearest_m).map(|(_, ahead)| ahead.name.clone());
-    let are_kept = user.keeps_rules;
-    RoadRules { are_kept, stays_in_lane, stop_line_m, waits_for, keeps_clear_behind, ..RoadRules::default() }
+    let (are_kept, merging) = (user.keeps_rules, merging::merging(user, users));
+    RoadRules { are_kept, stays_in_lane, stop_line_m, waits_for, keeps_clear_behind, merging, ..RoadRules::default() }
 }
 
 /// What is asked where a road has no signs and no lanes that meet: to drive no faster than one wants in order to be first.

@@ -15,8 +15,10 @@ const SOON_S: f64 = 3.2;
 const GAP_M: f64 = 0.2;
 
 /// Where a driver avoids a vehicle that comes head-on in its lane.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Evasion {
+    /// The vehicle.
+    pub name: String,
     /// How far its front may come along its route \[m\].
     pub line_m: f64,
     /// Where it drives beside the centre line of its route: at the right edge of its lane \[m\].
@@ -31,10 +33,10 @@ pub(super) fn evasion(scene: &Scene) -> Option<Evasion> {
     }
     let own_m = ego.along_m();
     let front_m = own_m + ego.body.front_m;
-    let lines_m = scene.others.iter().filter_map(|other| meeting_m(scene, other, front_m));
-    let line_m = lines_m.min_by(f64::total_cmp)?;
+    let met = scene.others.iter().filter_map(|other| Some((meeting_m(scene, other, front_m)?, other)));
+    let (line_m, other) = met.min_by(|a, b| a.0.total_cmp(&b.0))?;
     let edge_m = ego.route.half_width.value(own_m) - 0.5 * ego.body.width_m - EDGE_M * ego.body.scale;
-    Some(Evasion { line_m, across_m: -edge_m.max(0.0) })
+    Some(Evasion { name: other.name.clone(), line_m, across_m: -edge_m.max(0.0) })
 }
 
 /// How far a front at `front_m` comes until it meets a vehicle that comes head-on in the lane, at the present speeds of both; none if

@@ -47,7 +47,7 @@ struct Road {
     longest_m: f64,
 }
 
-/// All vehicles by their straight roads. Nothing where the vehicles of a run are not all on straight roads of clearly different directions.
+/// All vehicles by their straight roads, which have clearly different directions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LaneOrder {
     roads: Vec<Road>,
@@ -65,7 +65,14 @@ pub(crate) struct Strip {
 }
 
 impl LaneOrder {
-    /// Sorts vehicles anew, by their rows; none are not on the road. Memory is kept from the last time.
+    /// Whether vehicles are all on straight roads of clearly different directions.
+    pub(crate) fn has_all<'a>(mut agents: impl Iterator<Item = &'a Agent>) -> bool {
+        let mut order = LaneOrder::default();
+        agents.all(|agent| agent.route.straight().is_some() && order.has_road_of(agent))
+    }
+
+    /// Sorts vehicles anew, by their rows; none are not on the road. Nothing is sorted where not all are on straight roads of clearly
+    /// different directions. Memory is kept from the last time.
     pub(crate) fn sort<'a>(&mut self, agents: impl Iterator<Item = Option<&'a Agent>> + Clone) {
         self.places.clear();
         self.places.resize(agents.clone().count(), None);

@@ -100,7 +100,18 @@ pub struct Scene {
     pub others: Vec<Agent>,
 }
 
+/// A vehicle that leaves its lane, or goes back to it, weighs its place across the road this many times more.
+const SWIFT_RATIO: f64 = 4.0;
+
 impl Goal {
+    /// The goal, moved to a lateral coordinate of a route and reached in one motion \[m\].
+    pub(crate) fn moved_to(self, route: &Route, across_m: f64) -> Goal {
+        let [x_m, y_m] = route.position(route.along(self.target.position()), across_m);
+        let [along, across, heading, speed] = self.tracking;
+        let tracking = [along, SWIFT_RATIO * across, heading, speed];
+        Goal { target: State { x_m, y_m, ..self.target }, tracking, ..self }
+    }
+
     /// The axes along the target's heading, which is that of the road, and across it.
     pub fn axes(&self) -> Axes {
         Axes::along(self.target.heading_rad)
@@ -111,6 +122,12 @@ impl Scene {
     /// The bicycle model of the planning vehicle, with the plan's time step.
     pub fn model(&self) -> Bicycle {
         Bicycle::new(&self.ego.body, self.step_s)
+    }
+
+    /// Lets the planning vehicle drive at a lateral coordinate of its route for now, in place of that of its goal \[m\].
+    pub(crate) fn drive_beside_goal(&mut self, across_m: f64) {
+        self.ego.rules.drives_at_m = Some(across_m);
+        self.goal = self.goal.moved_to(&self.ego.route, across_m);
     }
 
     /// Beside each position of a motion, the axes along the ego's road and across it, and the goal's position; on a curved road,

@@ -28,6 +28,9 @@ pub enum RecordFault {
     },
 }
 
+/// Who goes backwards more slowly than this stands: that is noise of the record \[m/s\].
+const BACKWARDS_MPS: f64 = 0.2;
+
 /// Times that differ by less are equal \[s\].
 const TIME_TOLERANCE_S: f64 = 1e-9;
 
@@ -47,8 +50,9 @@ impl Record {
             if before.is_some_and(|(before_s, _)| time_s <= before_s + TIME_TOLERANCE_S) {
                 return Err(RecordFault::NotLater { row });
             }
+            let speed_mps = if speed_mps > -BACKWARDS_MPS { speed_mps.max(0.0) } else { speed_mps };
             let heading_rad = before.map_or(heading_rad, |(_, state)| next_to(heading_rad, state.heading_rad));
-            moments.push((time_s, State { x_m, y_m, heading_rad, speed_mps: speed_mps.max(0.0) }));
+            moments.push((time_s, State { x_m, y_m, heading_rad, speed_mps }));
         }
         if moments.is_empty() { Err(RecordFault::Empty) } else { Ok(Record { moments }) }
     }

@@ -137,6 +137,13 @@ impl Agent {
         [cos.abs() * length_m + sin.abs() * width_m, sin.abs() * length_m + cos.abs() * width_m]
     }
 
+    /// The speed that it does not exceed for now, so that there is room when it joins the way of others \[m/s\]; none if nothing holds it.
+    pub(crate) fn merging_speed_mps(&self) -> Option<f64> {
+        let crate::scene::road_rules::Merging { meeting_m, in_s, .. } = self.rules.merging.as_ref()?;
+        let front_m = self.route.along(self.state.position()) + self.body.front_m;
+        Some(self.state.speed_mps.min((meeting_m - front_m).max(0.0) / in_s.max(1e-3)))
+    }
+
     /// Whether the rules hold another vehicle for this one.
     pub(crate) fn is_waited_for_by(&self, other: &Agent) -> bool {
         other.rules.waits_for.contains(&self.name)
@@ -155,7 +162,7 @@ pub(crate) fn is_standing(agent: &Agent) -> bool {
 
 /// The same at a speed, for vehicles of the scale of one.
 pub(crate) fn is_standing_at(like: &Agent, speed_mps: f64) -> bool {
-    speed_mps < STANDING_MPS * like.body.time_ratio()
+    speed_mps.abs() < STANDING_MPS * like.body.time_ratio()
 }
 
 /// The arc length of a vehicle's rear on its own route \[m\].

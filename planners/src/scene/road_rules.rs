@@ -24,6 +24,10 @@ pub struct Obstacle {
     pub across_m: f64,
     /// The lateral position at which it is passed \[m\].
     pub pass_at_m: f64,
+    /// Where the row ends that it begins and that is passed in one go, along the driver's route \[m\].
+    pub row_end_m: f64,
+    /// Whether it has no driver.
+    pub is_without_driver: bool,
     /// Half the lengths and half the widths of both, together \[m\].
     pub reach_m: [f64; 2],
 }
@@ -39,6 +43,17 @@ pub struct Followed {
     pub speeds_mps: Vec<f64>,
 }
 
+/// When a vehicle may be where its way joins that of others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Merging {
+    /// Behind whom it falls in.
+    pub behind: String,
+    /// How far along its route the ways meet \[m\].
+    pub meeting_m: f64,
+    /// In what time it may be there \[s\].
+    pub in_s: f64,
+}
+
 /// What the rules of the road ask of a vehicle now.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RoadRules {
@@ -50,10 +65,16 @@ pub struct RoadRules {
     pub stop_line_m: Option<f64>,
     /// The vehicle ahead that leaves no room behind a crossing way, before which it waits at the line.
     pub keeps_clear_behind: Option<String>,
+    /// Where it drives across its route for now, in place of its goal: on the lane beside, to overtake, or at the edge \[m\].
+    pub drives_at_m: Option<f64>,
+    /// The vehicle that comes head-on in its lane, before which it brakes at the edge.
+    pub evades: Option<String>,
     /// What stands in its lane and is passed now; there is room.
     pub passes: Option<Obstacle>,
     /// The vehicle ahead behind which it stays, of a driver who sees the motion of the others only.
     pub follows: Option<Followed>,
+    /// When it may be where it joins the way of others from the lane beside; none if nothing holds it.
+    pub merging: Option<Merging>,
     /// Whom it waits for there; empty where a sign alone holds it.
     pub waits_for: Vec<String>,
 }

@@ -35,7 +35,6 @@ mod presence;
 mod reacting;
 #[cfg(test)]
 mod reacting_tests;
-mod reactive_sight;
 mod road_user;
 mod room;
 mod scenes;
@@ -51,8 +50,7 @@ pub use neighbours::Neighbours;
 pub use observation::Observations;
 pub use planning_order::planning_order;
 pub use presence::{Presence, Stay};
-pub use reactive_sight::ReactiveSight;
-pub use road_user::{AskedFor, RoadUser};
+pub use road_user::RoadUser;
 
 use crate::rules::{RoadRules, RuleBook};
 use crate::scene::LaneOrder;
@@ -77,8 +75,6 @@ pub struct Traffic {
     pub observations: Observations,
     /// The vehicles of straight roads by lanes, for drivers that react.
     pub lane_order: LaneOrder,
-    /// What drivers that react see on networks.
-    pub sight: ReactiveSight,
 }
 
 impl Traffic {
@@ -96,6 +92,7 @@ impl Traffic {
                 user.committed = CommittedPlan::default();
             }
         }
+        self.let_react();
     }
 
     /// The road users follow their last plans for another tick: what happened while they planned is not reported again.

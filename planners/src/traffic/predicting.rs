@@ -6,6 +6,7 @@ use super::Traffic;
 use super::observation::{MadeOf, Observations};
 use super::road_user::RoadUser;
 use crate::Agent;
+use crate::rules::giving_way::stopping_distance_m;
 use crate::rules::{Obliged, RoadRules, beside_no_network};
 
 impl Traffic {
@@ -13,48 +14,39 @@ impl Traffic {
     /// of it, and says how urgent it is for it to brake. To be called once a tick.
     pub fn predict(&mut self) {
         self.road_users.iter_mut().filter(|user| !user.is_absent()).for_each(|user| user.agent.note_place());
-        self.note_arrivals();
-        let some_plan = self.road_users.iter().any(|user| !user.is_absent() && !user.is_reacting());
-        if some_plan {
+        if self.road_users.iter().any(|user| !user.is_absent() && !user.is_reacting) {
             self.find_neighbours();
+            let Traffic { tick, step_s, .. } = *self;
+            let present = self.road_users.iter().filter(|user| !user.is_absent());
+            self.rule_book.note(tick, step_s, &present.map(RoadUser::obliged).collect::<Vec<_>>());
             self.observe();
             self.judge();
+            self.expect();
         } else {
             self.observations = Observations::default();
         }
-        self.judge_by_present();
-        if some_plan {
-            self.expect();
-        }
         self.prepare_reactions();
-    }
-
-    /// Notes in the rule book who arrives where.
-    fn note_arrivals(&mut self) {
-        let Traffic { tick, step_s, .. } = *self;
-        let present = || self.road_users.iter().filter(|user| !user.is_absent());
-        if present().any(RoadUser::is_judged) {
-            self.rule_book.note(tick, step_s, &present().map(RoadUser::obliged).collect::<Vec<_>>());
-        }
     }
 
     /// Writes into every agent that plans what the others expect of it, and how urgent it is for it to brake.
     fn expect(&mut self) {
         let Traffic { horizon, step_s, .. } = *self;
-        let is_asked = |user: &&mut RoadUser| !user.is_reacting();
-        for RoadUser { agent, committed, .. } in self.road_users.iter_mut().filter(is_asked) {
+        for RoadUser { agent, committed, .. } in self.road_users.iter_mut().filter(|user| !user.is_reacting) {
             agent.prediction = Arc::new(committed.prediction(agent, horizon, step_s));
         }
         for vehicle in 0..self.road_users.len() {
-            let RoadUser { agent, keeps_rules, presence, .. } = &self.road_users[vehicle];
-            let is_reacting = self.road_users[vehicle].is_reacting();
-            if presence.is_absent() || is_reacting || (!keeps_rules && agent.limits.comfort.is_none()) {
+            let RoadUser { agent, keeps_rules, presence, is_reacting, .. } = &self.road_users[vehicle];
+            if presence.is_absent() || *is_reacting || (!keeps_rules && agent.limits.comfort.is_none()) {
                 continue;
             }
             let (keeps_rules, observes) = (*keeps_rules, self.road_users[vehicle].observes());
             let mut scene = if observes { self.scene(vehicle) } else { self.moment(vehicle) };
             if keeps_rules {
-                self.rule_book.hold_behind_obstacle(&mut scene);
+                self.rule_book.hold_behind_obstacle(&mut scene, self.road_users[vehicle].patience_s);
+            }
+            if keeps_rules && self.road_users[vehicle].stay.stops_at_end {
+                let before_m = stopping_distance_m(&scene.ego);
+                scene.ego.rules.stop_before(scene.ego.route.end_m() - before_m);
             }
             if observes && self.road_users[vehicle].decides {
                 scene.ego.rules.follows = scene.kept_behind();
@@ -67,7 +59,7 @@ impl Traffic {
     /// Makes the observation of this tick and the views of those who see the motion of the others only.
     fn observe(&mut self) {
         let present = || self.road_users.iter().filter(|user| !user.is_absent());
-        let observers = present().filter(|user| user.observes() && !user.is_reacting() && self.is_observed());
+        let observers = present().filter(|user| user.observes() && !user.is_reacting);
         let mut late: Vec<usize> = observers.map(|user| user.late_steps(self.step_s)).collect();
         late.sort_unstable();
         late.dedup();

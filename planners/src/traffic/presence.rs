@@ -28,12 +28,14 @@ pub struct Stay {
     pub leaves_s: Option<f64>,
     /// Whether it leaves where its route ends.
     pub leaves_at_end: bool,
+    /// Whether it stops where its route ends.
+    pub stops_at_end: bool,
 }
 
 impl Stay {
     /// Whether the vehicle is on the road for the whole run, whatever happens.
     pub fn is_permanent(&self) -> bool {
-        *self == Stay::default()
+        Stay { stops_at_end: false, ..*self } == Stay::default()
     }
 
     /// The presence at the start of a run.

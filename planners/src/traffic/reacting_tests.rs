@@ -1,6 +1,6 @@
 //! Laws of vehicles that react.
 
-use super::{AskedFor, RoadUser, Traffic};
+use super::{RoadUser, Traffic};
 use crate::drivers::idm;
 use crate::fixture::{real_car, scene};
 use crate::scene::lane_order::{LaneOrder, OnRoad, Strip};
@@ -15,8 +15,7 @@ fn car(number: usize, x_m: f64, speed_mps: f64, wanted_mps: f64) -> RoadUser {
     agent.limits.comfort = Some(ComfortLimits::default());
     let mut goal = scene(agent.clone(), Vec::new()).goal;
     goal.target.speed_mps = wanted_mps;
-    let asked_for = AskedFor::Input;
-    RoadUser { knows_plans: false, tells_plan: false, asked_for, ..RoadUser::new(agent, goal, true) }
+    RoadUser { knows_plans: false, tells_plan: false, may_react: true, ..RoadUser::new(agent, goal, true) }
 }
 
 /// The values of the literature, on a road of one lane.
@@ -106,7 +105,7 @@ fn followers_keep_the_gap_of_the_closed_form() {
 #[test]
 fn in_an_emergency_a_reacting_driver_brakes_as_it_needs() {
     let mut users = vec![car(0, 0.0, 25.0, 25.0), car(1, 22.0, 25.0, 25.0)];
-    users[1].asked_for = AskedFor::Nothing;
+    users[1].may_react = false;
     let mut planner = Planner::new(&literature(), &Default::default());
     let mut traffic = Traffic { step_s: STEP_S, horizon: 2, road_users: users, ..Traffic::default() };
     for tick in 0..80 {

@@ -24,10 +24,14 @@ pub struct RoadUser {
     pub tells_plan: bool,
     /// How late it observes the motion of the others \[s\].
     pub reaction_s: f64,
+    /// How long it follows a slow vehicle before it overtakes on the other side, for 1/10 scale cars \[s\].
+    pub patience_s: f64,
     /// Whether it decides for itself where it drives: it does not follow a script, a record or inputs from outside.
     pub decides: bool,
-    /// What its driver is asked for.
-    pub asked_for: AskedFor,
+    /// Whether its driver may be asked for an input instead of a plan: it looks at nothing ahead.
+    pub may_react: bool,
+    /// Whether it is asked for an input in this tick.
+    pub is_reacting: bool,
     /// The answer of a driver that has reacted; none before, and of others.
     pub reaction: Option<Reaction>,
     /// Whether it keeps all rules of the road, speed limits too, and drives no faster than it wants.
@@ -48,18 +52,6 @@ pub struct RoadUser {
     pub origin: Origin,
 }
 
-/// What the driver of a vehicle is asked for when vehicles plan.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum AskedFor {
-    /// A plan over the horizon.
-    #[default]
-    Plan,
-    /// An input, if it sees the motion of the others only and tells no plan: it reacts and looks at nothing ahead.
-    Input,
-    /// Nothing: it is driven from outside.
-    Nothing,
-}
-
 impl RoadUser {
     /// A vehicle on the road that has not planned yet and knows the plans of the others.
     pub fn new(agent: Agent, goal: Goal, goes_first: bool) -> Self {
@@ -70,8 +62,10 @@ impl RoadUser {
             knows_plans: true,
             tells_plan: true,
             reaction_s: 0.0,
+            patience_s: 0.0,
             decides: true,
-            asked_for: AskedFor::Plan,
+            may_react: false,
+            is_reacting: false,
             reaction: None,
             keeps_rules: false,
             is_crashed: false,
@@ -89,19 +83,9 @@ impl RoadUser {
         self.presence.is_absent()
     }
 
-    /// Whether it reacts instead of planning.
-    pub fn is_reacting(&self) -> bool {
-        self.asked_for == AskedFor::Input && self.observes() && !self.tells_plan
-    }
-
     /// Whether it sees only the motion of the others, as people do; the drivers of the dissertation who infer plans see states.
     pub fn observes(&self) -> bool {
         !self.knows_plans && self.agent.limits.comfort.is_some()
-    }
-
-    /// Whether the rules of a network apply to it.
-    pub(super) fn is_judged(&self) -> bool {
-        self.keeps_rules && self.agent.route.is_in_network()
     }
 
     /// The vehicle as the rules see it that it keeps itself.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::Traffic;
 use super::observation::{View, as_it_shows};
 use super::road_user::RoadUser;
-use crate::prediction::{steadily_along, without_plan};
+use crate::prediction::without_plan;
 use crate::scene::Knowledge;
 use crate::{Agent, Input, Scene, Trajectory};
 
@@ -13,7 +13,7 @@ impl Traffic {
     /// What a vehicle on the road sees that observes the motion of the others only; none of another one.
     pub(super) fn view(&self, row: usize) -> Option<&View> {
         let user = &self.road_users[row];
-        (user.observes() && !user.is_reacting() && !user.is_absent())
+        (user.observes() && !user.is_reacting && !user.is_absent())
             .then(|| self.observations.view_of(user.late_steps(self.step_s)))
             .flatten()
     }
@@ -29,9 +29,6 @@ impl Traffic {
     pub fn scene(&self, vehicle: usize) -> Scene {
         let user = &self.road_users[vehicle];
         let Some(view) = self.view(vehicle) else {
-            if user.observes() {
-                return self.scene_without_expectations(vehicle);
-            }
             let near = self.near.of(vehicle, &self.road_users).into_iter();
             let known = near.map(|other| {
                 let RoadUser { agent, tells_plan, .. } = &self.road_users[other];
@@ -49,30 +46,24 @@ impl Traffic {
         Scene { others, knowledge, ..self.moment_of(vehicle, &[]) }
     }
 
-    /// The moment as a vehicle sees it whose driver does not look ahead, while no expectations are made: all keep their speed.
-    fn scene_without_expectations(&self, vehicle: usize) -> Scene {
-        let others = self.near.of(vehicle, &self.road_users).into_iter().map(|other| {
-            let agent = self.shown(other);
-            let prediction = steadily_along(&agent.route, &agent.body, &agent.state, self.horizon, self.step_s);
-            Agent { prediction: Arc::new(prediction), ..agent }
-        });
-        let knowledge = Knowledge::Motion { late_steps: 0 };
-        Scene { others: others.collect(), knowledge, ..self.moment_of(vehicle, &[]) }
-    }
-
     /// The moment as it is around one vehicle, with the predictions as they stand of all who can matter to it within the horizon.
     pub fn moment(&self, vehicle: usize) -> Scene {
         self.moment_of(vehicle, &self.near.of(vehicle, &self.road_users))
     }
 
     pub(super) fn moment_of(&self, vehicle: usize, others: &[usize]) -> Scene {
+        let RoadUser { agent, goal, .. } = &self.road_users[vehicle];
+        let (agent, mut goal) = (agent.clone(), *goal);
+        if let Some(across_m) = agent.rules.drives_at_m {
+            goal = goal.moved_to(&agent.route, across_m);
+        }
         Scene {
             tick: self.tick,
             step_s: self.step_s,
             horizon: self.horizon,
             knowledge: Knowledge::Plans,
-            ego: self.road_users[vehicle].agent.clone(),
-            goal: self.road_users[vehicle].goal,
+            ego: agent,
+            goal,
             others: others.iter().map(|other| self.road_users[*other].agent.clone()).collect(),
         }
     }

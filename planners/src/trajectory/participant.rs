@@ -71,6 +71,12 @@ impl Participant {
         self.stage_bounds.get(t).map_or([-most_rad, most_rad], |bounds| bounds.steering_rad)
     }
 
+    /// By how much the steering angle changes more in step `t` than the wheels can turn, with the sign of the change \[rad\].
+    pub(super) fn excess_turn_rad(&self, t: usize, change_rad: f64) -> f64 {
+        let most_rad = self.stage_bounds.get(t).map_or(f64::INFINITY, |bounds| bounds.turn_rad);
+        change_rad - change_rad.clamp(-most_rad, most_rad)
+    }
+
     /// Bounds on the acceleration in step `t` \[m/s²\].
     pub fn acceleration_bounds_mps2(&self, t: usize) -> [f64; 2] {
         let Limits { acceleration_min_mps2, acceleration_max_mps2, .. } = self.limits;

@@ -9,4 +9,6 @@ pub struct StageBounds {
     pub steering_rad: [f64; 2],
     /// The speed after the step \[m/s\].
     pub speed_mps: [f64; 2],
+    /// The largest change of the steering angle from the step before; infinite where wheels turn at once \[rad\].
+    pub turn_rad: f64,
 }

@@ -169,6 +169,9 @@ vehicle_keys! {
         #[schemars(example = true)]
         Option<bool>
     };
+    /// Whether it stops where its route ends, if it keeps the rules; by default it drives on straight ahead.
+    #[schemars(example = true)]
+    stops_at_end: Option<bool> => stay.stops_at_end;
     /// Its sensing of the other vehicles; without it, it sees the exact states.
     #[schemars(example = json!({ "speed_sd_mps": 0.05, "delay_s": 0.3 }))]
     sensing: Option<Stated<sensing::Settings>> => sensing;

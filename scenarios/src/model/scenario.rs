@@ -317,13 +317,15 @@ impl Vehicle {
         }
     }
 
-    /// The desired state of the vehicle: its desired speed along the road, at the lateral position of its goal (or of its start if it has
-    /// no goal; on a network, in the middle of its route). The coordinate along the road is that of the start; no controller tracks it.
+    /// The desired state of the vehicle: its desired speed along the road, at the lateral position of its goal (without one, of its start; after
+    /// a record, in the lane where that ends; on a network, in the middle). The coordinate along the road is that of the start.
     pub fn target(&self, road: &Road) -> State {
         let route = &self.route;
         let start = route.locate(self.start.position(), None);
         let stated_m = self.goal_lane_centre_m(road).or(self.goal.y_m);
         let start_m = if road.parallel_lanes().is_some() { start.across_m } else { 0.0 };
+        let end = self.driver.record().and_then(|record| record.state_at(record.span_s()[1]));
+        let stated_m = stated_m.or_else(|| road.nearest_lane_m(self.road, route.across(end?.position())));
         let [x_m, y_m] = route.centre.position(start.along_m, stated_m.unwrap_or(start_m));
         State {
             x_m,

@@ -101,8 +101,8 @@ fn families() -> Vec<&'static str> {
 /// The settings that name such files, by their first key.
 pub(super) const SETTINGS: [&str; 4] = ["weather", "tariff", "gains", "vehicle"];
 
-/// The contents of the weather file, of the tables of prices and gains and of recorded vehicles of a scenario, where it has them, in words of which no two that differ
-/// have the same.
+/// The contents of the weather file, of the tables of prices and gains and of recorded vehicles of a scenario, and the digests of files that
+/// drivers name, where it has them, in words of which no two that differ have the same.
 pub(super) fn contents(scenario: &Scenario) -> String {
     let weather = match &scenario.weather {
         WeatherSource::Epw(weather) => format!("{:?}{:?}", weather.stated, weather.rows),
@@ -118,7 +118,9 @@ pub(super) fn contents(scenario: &Scenario) -> String {
     let is_recorded = |vehicle: &&Vehicle| vehicle.driver.record().is_some();
     let records: String =
         scenario.vehicles.iter().filter(is_recorded).map(|vehicle| format!("{:?}", vehicle.driver)).collect();
-    weather + &prices + &gains + &records
+    let digest = |vehicle: &Vehicle| Some(serde_json::to_value(&vehicle.driver).ok()?.get("digest")?.to_string());
+    let networks: String = scenario.vehicles.iter().filter_map(digest).collect();
+    weather + &prices + &gains + &records + &networks
 }
 
 /// The key of a plan that states its number of samples.

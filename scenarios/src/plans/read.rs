@@ -26,7 +26,7 @@ use crate::text::error::{Document, Fault, LoadError, Place, quoted};
 static SCHEMA: LazyLock<Json> = LazyLock::new(json_schema::generated::<PlanFile>);
 
 /// The plans in the binary: name and text.
-const EMBEDDED: [(&str, &str); 12] = [
+const EMBEDDED: [(&str, &str); 13] = [
     ("quick", include_str!("../../plans/quick.toml")),
     ("people-encounters", include_str!("../../plans/people-encounters.toml")),
     ("perturbed-starts", include_str!("../../plans/perturbed-starts.toml")),
@@ -36,6 +36,7 @@ const EMBEDDED: [(&str, &str); 12] = [
     ("any-weight", include_str!("../../plans/any-weight.toml")),
     ("people", include_str!("../../plans/people.toml")),
     ("streets", include_str!("../../plans/streets.toml")),
+    ("every-street", include_str!("../../plans/every-street.toml")),
     ("partners", include_str!("../../plans/partners.toml")),
     ("study", include_str!("../../plans/study.toml")),
     ("benchmark", include_str!("../../plans/benchmark.toml")),

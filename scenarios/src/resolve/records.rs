@@ -34,7 +34,7 @@ const MAX_NAMES: usize = 12;
 /// The rows of each vehicle of a table, by its `id`; without such a column, of one vehicle without a name.
 pub(crate) type Records = BTreeMap<String, Vec<[f64; 5]>>;
 
-/// Replaces the names of tables in recorded drivers by their rows.
+/// Replaces the names of tables in recorded drivers by their rows, and the files that other drivers name by absolute paths.
 ///
 /// # Errors
 /// The faults of the tables.
@@ -44,7 +44,13 @@ pub(super) fn read(vehicles: &mut [VehicleConfig], tree: &TomlNode) -> Result<()
     for (index, vehicle) in vehicles.iter_mut().enumerate() {
         let Some(driver) = vehicle.driver.as_mut() else { continue };
         let file = driver.get("file").and_then(Json::as_str).map(str::to_owned);
-        let Some(file) = file.filter(|_| driver.get("kind").is_some_and(|kind| kind == KIND)) else { continue };
+        let Some(file) = file.filter(|file| !file.is_empty()) else { continue };
+        if driver.get("kind").is_none_or(|kind| kind != KIND) {
+            let path = path_beside(tree.place_of(&format!("vehicle.{index}.driver.file")), &file);
+            let path = std::fs::canonicalize(&path).unwrap_or(path);
+            *driver = std::mem::take(driver).with("file", path.to_string_lossy().into_owned());
+            continue;
+        }
         let id = driver.get("id").and_then(Json::as_str).map(str::to_owned);
         match rows(&mut tables, &file, id.as_deref(), tree, index) {
             Ok(rows) => {

@@ -133,6 +133,17 @@ impl Default for Road {
 }
 
 impl Road {
+    /// The radius of turns of a junction, its key and its value \[m\]; `None` where no key states it.
+    pub(crate) fn turn_radius(&mut self) -> Option<(&'static str, &mut f64)> {
+        match self {
+            Road::Roundabout(ring) => Some(("radius_m", &mut ring.radius_m)),
+            Road::TJunction(form) => Some(("turn_radius_m", &mut form.turn_radius_m)),
+            Road::Crossing(form) => Some(("turn_radius_m", &mut form.turn_radius_m)),
+            Road::AllWayStop(form) => Some(("turn_radius_m", &mut form.turn_radius_m)),
+            _ => None,
+        }
+    }
+
     pub(crate) const DEFAULT_KIND: &'static str = "lanes";
     /// The kinds with parallel lanes; the others are networks.
     pub(crate) const PARALLEL_KINDS: [&'static str; 4] = ["lanes", "ramp-merge", "intersection", "curve"];
@@ -254,6 +265,12 @@ impl Road {
         self.parallel_lanes()?;
         let right_m = self.corridor(branch).map_or(-0.5 * self.width_m(), |corridor| corridor.right_m);
         Some(right_m + (lane as f64 + 0.5) * self.lane_width_m())
+    }
+
+    /// Lateral coordinate of the centre of the lane of `branch` that is nearest to another one; `None` on a network \[m\].
+    pub(crate) fn nearest_lane_m(&self, branch: Branch, across_m: f64) -> Option<f64> {
+        let centres = (0..self.parallel_lanes()?.count).filter_map(|lane| self.lane_centre_m(branch, lane));
+        centres.min_by(|a, b| (a - across_m).abs().total_cmp(&(b - across_m).abs()))
     }
 
     /// Lateral coordinate of the middle of `branch` \[m\].

@@ -10,6 +10,8 @@ const ONCOMING: [&str; 4] = ["west-a", "west-b", "west-c", "west-d"];
 
 /// The beginning and the end of a straight street of two lanes along x \[m\].
 const STREET_M: f64 = 200.0;
+/// The front of a column is at least this far before the end of its lane \[m\].
+const LINE_M: f64 = 5.0;
 
 fn car<'a>(name: &'a str, lane: &'a str, along_m: f64, speed_mps: f64, to: Option<&'a str>) -> Draftee<'a> {
     Draftee { name, class: "car", lane, along_m, speed_mps, to, wanted_mps: speed_mps, driver: None }
@@ -86,7 +88,7 @@ pub(super) fn zebra(draft: &mut Draft) {
     draft.lane("pavement", [[x_m, 14.0], [x_m, 5.0]], 2.5, &format!("{path}successors = [\"zebra\"]"));
     draft.lane("zebra", [[x_m, 5.0], [x_m, -5.0]], 2.5, &format!("{path}zebra = true\nsuccessors = [\"opposite\"]"));
     draft.lane("opposite", [[x_m, -5.0], [x_m, -14.0]], 2.5, path);
-    let front_m = STREET_M + x_m - draft.between(30.0, 60.0);
+    let front_m = (STREET_M + x_m - draft.between(30.0, 60.0)).min(STREET_M - LINE_M);
     column(draft, front_m, limit_mps);
     let mut along_m = draft.between(2.0, 7.0);
     let count = draft.count(1, 3);

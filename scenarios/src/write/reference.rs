@@ -25,7 +25,7 @@ const HEAD: &str = "# Every key\n\n\
     - Where a table has a `kind`, that key chooses which of its sections applies.\n\
     - Every key exists since version 0.1.0, the first, but for the kind `external` of drivers (0.2.0), and those of version 0.3.0: `conduct`,\n  \
     `detail`, `detector`, `flow`, `gains`, `light`, `obstacle`, `planning_period_s`, `expect.metric`, `expect.rules_kept`,\n  \
-    `limits.comfort`, `rules`, `enters_s`, `leaves_s`, `leaves_at_end`, `when`, `users`, `zebra`, `window`, `demand_per_kw`,\n  \
+    `limits.comfort`, `rules`, `enters_s`, `leaves_s`, `leaves_at_end`, `stops_at_end`, `when`, `users`, `zebra`, `window`, `demand_per_kw`,\n  \
     `emissions_kg_per_kwh`, `interval_s`, `budget.processor_s`, and the kinds `walker`, `recorded`, `inputs`, `economic-mpc`, `csv`\n  \
     and `boptest` with all that is in them. Later keys say it themselves.\n";
 

@@ -17,91 +17,100 @@ pub enum Autoreset {
     Disabled,
 }
 
-/// Environments with one agent each that are stepped in one call, on all cores.
+/// Environments that are stepped in one call, on all cores; each has the same number of agents.
 ///
 /// Each world behaves as it does alone: the same seeds and actions give the same numbers with any number of threads.
 pub struct EnvironmentBatch {
     environments: Vec<Environment>,
     autoreset: Autoreset,
-    /// Whether each world's episode was over after the last step.
+    /// Number of agents of each world.
+    agents: usize,
+    /// Whether the episodes of all agents of each world were over after the last step.
     over: Vec<bool>,
 }
 
-/// The results of a step of all worlds, one row for each world.
+/// The results of a step of all worlds: a row for each agent, all agents of the first world first.
 #[derive(Clone, Debug)]
 pub struct BatchSteps {
-    /// The observations; for a world that began a new episode, the first of that episode.
+    /// The observations; in a world that began a new episode, the first of that episode.
     pub observations: Vec<f32>,
-    /// The last observations of episodes that ended in this step and were followed by a new one; 0 elsewhere.
+    /// The last observations in worlds whose episode ended in this step and was followed by a new one; 0 elsewhere.
     pub last_observations: Vec<f32>,
     /// The rewards.
     pub rewards: Vec<f64>,
-    /// Whether the episode ended by an event,
+    /// Whether the agent's episode ended in this step by an event,
     pub terminated: Vec<bool>,
     /// or because the time is over.
     pub truncated: Vec<bool>,
     /// The terms of the rewards, in the order of [`RewardTerm::ALL`](super::RewardTerm::ALL).
     pub terms: Vec<TermValues>,
-    /// How each episode ended, if it did.
+    /// How the agent's episode ended in this step, if it did.
     pub endings: Vec<Option<Ending>>,
+    /// Whether the agent's episode goes on, so that its next action counts.
+    pub present: Vec<bool>,
 }
 
 impl BatchSteps {
-    /// Room for the steps of `worlds` worlds with `observation_len` numbers each.
-    pub fn new(worlds: usize, observation_len: usize) -> BatchSteps {
+    /// Room for the steps of `rows` agents with `observation_len` numbers each.
+    pub fn new(rows: usize, observation_len: usize) -> BatchSteps {
         BatchSteps {
-            observations: vec![0.0; worlds * observation_len],
-            last_observations: vec![0.0; worlds * observation_len],
-            rewards: vec![0.0; worlds],
-            terminated: vec![false; worlds],
-            truncated: vec![false; worlds],
-            terms: vec![TermValues::default(); worlds],
-            endings: vec![None; worlds],
+            observations: vec![0.0; rows * observation_len],
+            last_observations: vec![0.0; rows * observation_len],
+            rewards: vec![0.0; rows],
+            terminated: vec![false; rows],
+            truncated: vec![false; rows],
+            terms: vec![TermValues::default(); rows],
+            endings: vec![None; rows],
+            present: vec![false; rows],
         }
     }
 
-    fn rows(&mut self) -> Vec<BatchRow<'_>> {
-        let length = self.observations.len() / self.rewards.len().max(1);
+    /// The rows of each world with this number of agents.
+    fn worlds(&mut self, agents: usize) -> Vec<WorldRows<'_>> {
+        let length = agents * (self.observations.len() / self.rewards.len().max(1));
         let seen = self.observations.chunks_exact_mut(length).zip(self.last_observations.chunks_exact_mut(length));
-        let ended = self.terminated.iter_mut().zip(&mut self.truncated).zip(&mut self.endings);
-        let worth = self.rewards.iter_mut().zip(&mut self.terms);
-        let rows = seen.zip(worth).zip(ended).map(|(((observation, last), (reward, terms)), ended)| {
-            let ((terminated, truncated), ending) = ended;
-            BatchRow { observation, last, reward, terminated, truncated, terms, ending }
+        let ended = self.terminated.chunks_exact_mut(agents).zip(self.truncated.chunks_exact_mut(agents));
+        let ended = ended.zip(self.endings.chunks_exact_mut(agents)).zip(self.present.chunks_exact_mut(agents));
+        let worth = self.rewards.chunks_exact_mut(agents).zip(self.terms.chunks_exact_mut(agents));
+        let rows = seen.zip(worth).zip(ended).map(|(((observations, last), (rewards, terms)), ended)| {
+            let (((terminated, truncated), endings), present) = ended;
+            WorldRows { observations, last, rewards, terminated, truncated, terms, endings, present }
         });
         rows.collect()
     }
 }
 
-/// The row of one world, to be written.
-struct BatchRow<'a> {
-    observation: &'a mut [f32],
+/// The rows of one world, to be written.
+struct WorldRows<'a> {
+    observations: &'a mut [f32],
     last: &'a mut [f32],
-    reward: &'a mut f64,
-    terminated: &'a mut bool,
-    truncated: &'a mut bool,
-    terms: &'a mut TermValues,
-    ending: &'a mut Option<Ending>,
+    rewards: &'a mut [f64],
+    terminated: &'a mut [bool],
+    truncated: &'a mut [bool],
+    terms: &'a mut [TermValues],
+    endings: &'a mut [Option<Ending>],
+    present: &'a mut [bool],
 }
 
 impl EnvironmentBatch {
-    /// A batch of environments with equal spaces.
+    /// A batch of environments with equal spaces and numbers of agents.
     ///
     /// # Errors
-    /// [`EnvironmentError::Setting`] if the spaces differ, or if an environment has several agents.
+    /// [`EnvironmentError::Setting`] if they differ.
     pub fn new(environments: Vec<Environment>, autoreset: Autoreset) -> Result<EnvironmentBatch, EnvironmentError> {
         let fault = |reason: &str| Err(EnvironmentError::Setting { setting: "batch", reason: reason.to_owned() });
         let Some(first) = environments.first() else { return fault("at least one world is needed") };
-        let spaces = |environment: &Environment| (environment.observation_spaces(), environment.action_space());
-        if environments.iter().any(|environment| environment.agents().count() != 1) {
-            return fault("each world has one agent");
+        if environments.iter().any(|environment| environment.spaces() != first.spaces()) {
+            return fault("all worlds have the same spaces and the same number of agents");
         }
-        if environments.iter().any(|environment| spaces(environment) != spaces(first)) {
-            return fault("all worlds have the same spaces");
-        }
-        let over = vec![false; environments.len()];
+        let (agents, over) = (first.agents().count(), vec![false; environments.len()]);
         let environments = environments.into_iter().map(Environment::without_report).collect();
-        Ok(EnvironmentBatch { environments, autoreset, over })
+        Ok(EnvironmentBatch { environments, autoreset, agents, over })
+    }
+
+    /// Number of agents of each world.
+    pub fn agents(&self) -> usize {
+        self.agents
     }
 
     /// The environments.
@@ -121,30 +130,37 @@ impl EnvironmentBatch {
         })
     }
 
-    /// Steps all worlds by one decision each; `actions` holds the numbers of all worlds one after the other.
+    /// Steps all worlds by one decision each; `actions` holds the numbers of all agents, those of the first world first.
     ///
     /// # Errors
     /// [`EnvironmentError::Length`]; an invalid action, before any world has moved; or the first error of a world.
     pub fn step(&mut self, actions: &[f32], steps: &mut BatchSteps) -> Result<(), EnvironmentError> {
-        let space = self.environments[0].action_space();
-        let wanted = space.len() * self.environments.len();
+        let (space, agents) = (self.environments[0].action_space(), self.agents);
+        let each = space.len() * agents;
+        let wanted = each * self.environments.len();
         if actions.len() != wanted {
             return Err(EnvironmentError::Length { what: "actions of a batch", found: actions.len(), wanted });
         }
-        let begins_anew = |over: bool| over && self.autoreset == Autoreset::NextStep;
-        for (world, numbers) in actions.chunks_exact(space.len()).enumerate() {
-            if self.over[world] && self.autoreset == Autoreset::Disabled {
-                return Err(EnvironmentError::Over);
+        for (world, numbers) in actions.chunks_exact(each).enumerate() {
+            if self.over[world] {
+                if self.autoreset == Autoreset::Disabled {
+                    return Err(EnvironmentError::Over);
+                }
+                continue;
             }
-            if let Some(reason) = space.fault(numbers).filter(|_| !begins_anew(self.over[world])) {
-                return Err(EnvironmentError::Action { agent: format!("world {world}"), reason });
+            for (agent, numbers) in numbers.chunks_exact(space.len()).enumerate() {
+                let is_over = self.environments[world].episode(agent).is_over();
+                if let Some(reason) = space.fault(numbers).filter(|_| !is_over) {
+                    return Err(EnvironmentError::Action { agent: format!("world {world}"), reason });
+                }
             }
         }
         let autoreset = self.autoreset;
         let worlds = self.environments.par_iter_mut().zip(&mut self.over);
-        let worlds = worlds.zip(actions.par_chunks_exact(space.len())).zip(steps.rows());
-        worlds
-            .try_for_each(|(((environment, over), numbers), row)| step_one(environment, over, numbers, row, autoreset))
+        let worlds = worlds.zip(actions.par_chunks_exact(each)).zip(steps.worlds(agents));
+        worlds.try_for_each(|(((environment, over), numbers), rows)| {
+            step_one(environment, over, numbers, rows, autoreset)
+        })
     }
 }
 
@@ -152,26 +168,40 @@ fn step_one(
     environment: &mut Environment,
     over: &mut bool,
     numbers: &[f32],
-    row: BatchRow<'_>,
+    rows: WorldRows<'_>,
     autoreset: Autoreset,
 ) -> Result<(), EnvironmentError> {
     if *over {
         environment.reset(None)?;
         *over = false;
-        (*row.reward, *row.terminated, *row.truncated) = (0.0, false, false);
-        (*row.terms, *row.ending) = (TermValues::default(), None);
-        return environment.observe(0, row.observation);
+        rows.present.fill(true);
+        return observe_all(environment, rows.observations);
     }
+    let before: Vec<bool> = (0..rows.rewards.len()).map(|agent| environment.episode(agent).is_over()).collect();
     environment.step(numbers)?;
-    let episode = environment.episode(0);
-    (*row.terminated, *row.truncated) = (episode.is_terminated(), episode.is_over() && !episode.is_terminated());
-    (*row.terms, *row.ending) = (episode.terms, episode.ending);
-    *row.reward = environment.reward(0);
-    *over = episode.is_over();
+    for (agent, was_over) in before.into_iter().enumerate() {
+        let episode = environment.episode(agent);
+        rows.present[agent] = !episode.is_over();
+        if was_over {
+            continue;
+        }
+        (rows.terms[agent], rows.endings[agent]) = (episode.terms, episode.ending);
+        rows.terminated[agent] = episode.is_terminated();
+        rows.truncated[agent] = episode.is_over() && !episode.is_terminated();
+        rows.rewards[agent] = environment.reward(agent);
+    }
+    *over = !environment.is_live();
     if *over && autoreset == Autoreset::SameStep {
-        environment.observe(0, row.last)?;
+        observe_all(environment, rows.last)?;
         environment.reset(None)?;
         *over = false;
+        rows.present.fill(true);
     }
-    environment.observe(0, row.observation)
+    observe_all(environment, rows.observations)
+}
+
+/// Writes the observations of all agents of a world.
+fn observe_all(environment: &Environment, out: &mut [f32]) -> Result<(), EnvironmentError> {
+    let mut each = out.chunks_exact_mut(environment.observation_len()).enumerate();
+    each.try_for_each(|(agent, out)| environment.observe(agent, out))
 }

@@ -1,19 +1,22 @@
 //! The episode of an agent, and how it ended.
 
+use std::f64::consts::TAU;
+
 use interplay_planners::State;
 use interplay_scenarios::{Scenario, Vehicle};
 
 use super::RewardTerm;
 use super::reward::TermValues;
-use crate::measure::{Measures, VehicleMeasures};
+use crate::measure::{Measures, ObservedMoment, VehicleMeasures, time_gap_s};
 use crate::physics::gap_m;
-use crate::state::frame::Frame;
+use crate::state::frame::{Collision, Frame};
 
-/// The metrics of an agent of which its reward and its ending are made.
-pub(super) const METRICS: [&str; 3] = [EMERGENCIES, BROKEN, LEAVES_ROAD];
+/// The metrics of an agent of which its reward and its ending are made; who is at fault stands in the contacts.
+pub(super) const METRICS: [&str; 5] = [EMERGENCIES, BROKEN, LEAVES_ROAD, ASTRIDE, "contacts_at_fault"];
 const EMERGENCIES: &str = "emergency_braking";
 const BROKEN: &str = "rules_broken";
 const LEAVES_ROAD: &str = "leaves_road";
+const ASTRIDE: &str = "astride_s";
 
 /// How an episode ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,6 +61,8 @@ struct Counts {
     along_m: f64,
     emergencies: f64,
     broken: f64,
+    astride_s: f64,
+    acceleration_mps2: f64,
 }
 
 impl Episode {
@@ -89,6 +94,8 @@ impl Episode {
             along_m: measures.along_m()[index],
             emergencies: measured.metrics.number(EMERGENCIES),
             broken: measured.metrics.number(BROKEN),
+            astride_s: measured.metrics.number(ASTRIDE),
+            acceleration_mps2: frame.vehicles[index].input.acceleration_mps2,
         };
         let wanted_mps = vehicle.target(&scenario.road).speed_mps;
         let full_mps = if wanted_mps > 0.0 { wanted_mps } else { vehicle.limits.speed_max_mps };
@@ -103,6 +110,16 @@ impl Episode {
         add(RewardTerm::Goal, f64::from(reaches_goal));
         add(RewardTerm::Contact, f64::from(has_contact));
         add(RewardTerm::OffRoad, f64::from(is_off_road));
+        let is_at_fault =
+            |contact: &Collision| contact.fault.as_ref().is_some_and(|fault| fault.vehicle == vehicle.name);
+        let (braking_mps2, speed_mps) = (vehicle.limits.acceleration_min_mps2.abs(), measured.last.speed_mps);
+        let turned_rad = libm::remainder(measured.last.heading_rad - frame.vehicles[index].state.heading_rad, TAU);
+        add(RewardTerm::Speed, scenario.step_s * (speed_mps / full_mps).clamp(0.0, 1.0));
+        add(RewardTerm::Jerk, (now.acceleration_mps2 - self.before.acceleration_mps2).abs() / braking_mps2);
+        add(RewardTerm::Lateral, (speed_mps * turned_rad).abs() / braking_mps2);
+        add(RewardTerm::TimeGap, scenario.step_s * time_closeness(scenario, index, measures, frame));
+        add(RewardTerm::Astride, now.astride_s - self.before.astride_s);
+        add(RewardTerm::Fault, f64::from(frame.collisions.iter().any(is_at_fault)));
         self.before = now;
         self.ending = match (has_contact, is_off_road, reaches_goal) {
             (true, ..) => Some(Ending::Contact),
@@ -116,6 +133,15 @@ impl Episode {
     pub(super) fn time_is_over(&mut self) {
         self.ending = self.ending.or(Some(Ending::Time));
     }
+}
+
+/// By how much the time gap of a vehicle to its leader is below 1 s of a real car, as a share of that time.
+fn time_closeness(scenario: &Scenario, index: usize, measures: &Measures, frame: &Frame) -> f64 {
+    let states: Vec<State> = measures.vehicles.iter().map(|measured| measured.last).collect();
+    let (vehicles, along_m) = (&scenario.vehicles, measures.along_m());
+    let end = ObservedMoment { time_s: frame.time_s, vehicles, states: &states, along_m };
+    let near_s = vehicles[index].body.real_ratio().sqrt();
+    time_gap_s(frame, &end, index).map_or(0.0, |gap_s| (1.0 - gap_s / near_s).max(0.0))
 }
 
 /// By how much a vehicle is closer to the nearest other one than half the length of its body, as a share of that length.

@@ -24,10 +24,13 @@
 mod action;
 mod agent_interface;
 mod batch;
+mod copies;
 mod episode;
+mod network;
 mod observation;
 mod reward;
 mod start;
+mod streets;
 #[cfg(test)]
 mod tests;
 mod world;
@@ -35,11 +38,14 @@ mod world;
 pub use action::{Action, ActionSpace, DiscreteMeta};
 pub use agent_interface::{AgentInterface, Policy, PolicyDriver, PolicyError};
 pub use batch::{Autoreset, BatchSteps, EnvironmentBatch};
+pub use copies::{EpisodeStart, SavedEpisode};
 pub use episode::{Ending, Episode};
+pub use network::{NetworkPolicy, RegisterPolicies};
 pub use observation::{
     AgentView, BeliefView, ForeignView, Kinematics, LaneView, ObservationKind, ObservationSpace, OccupancyGrid,
     PlanView,
 };
 pub use reward::{EnvironmentError, EnvironmentSettings, RewardTerm, RewardWeights};
 pub use start::StartDraw;
+pub use streets::StreetDraw;
 pub use world::Environment;

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::{Action, AgentView, StartDraw};
+use super::{Action, AgentView, StartDraw, StreetDraw};
 use crate::simulation::run_error::RunError;
 
 /// Declares the terms of a reward and their weights.
@@ -65,6 +65,18 @@ reward_terms! {
     Gap gap = -0.5,
     /// Number of rules of the road that it broke.
     RuleBroken rule_broken = -1.0,
+    /// Time, weighted by the speed as a share of the desired one, at most 1.
+    Speed speed = 0.0,
+    /// Sum of the changes of acceleration, as shares of the strongest braking.
+    Jerk jerk = 0.0,
+    /// Time, weighted by the lateral acceleration as a share of the strongest braking.
+    Lateral lateral = 0.0,
+    /// Time behind a leader with a time gap below 1 s of a real car, weighted by the missing share of it.
+    TimeGap time_gap = 0.0,
+    /// Time during which it is astride a line between lanes.
+    Astride astride = 0.0,
+    /// 1 in the step of a contact in which it is at fault.
+    Fault fault = 0.0,
 }
 
 /// The values of the terms in one step, in the order of [`RewardTerm::ALL`].
@@ -91,6 +103,8 @@ pub struct EnvironmentSettings {
     pub reward: RewardWeights,
     /// The random draw of each episode's start.
     pub start: StartDraw,
+    /// The streets, of which each episode draws one; without them every episode is on the scenario's road.
+    pub streets: Option<StreetDraw>,
     /// Interval of decisions \[s\], rounded to plans. By default, meta-actions last half a second of a real car, and other actions one
     /// plan.
     pub decision_s: Option<f64>,
@@ -106,6 +120,7 @@ impl Default for EnvironmentSettings {
             action: Action::Continuous,
             reward: RewardWeights::default(),
             start: StartDraw::default(),
+            streets: None,
             decision_s: None,
             report: true,
         }
@@ -147,6 +162,11 @@ pub enum EnvironmentError {
     /// No episode is in progress.
     #[error("the episode is over, or none has begun: call reset")]
     Over,
+    /// A saved episode goes otherwise when it is repeated.
+    #[error(
+        "the episode goes otherwise in this program: it was saved by another version, or a file of its scenario has changed"
+    )]
+    OtherEpisode,
     /// The simulation failed.
     #[error(transparent)]
     Run(#[from] RunError),

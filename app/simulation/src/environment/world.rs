@@ -1,5 +1,7 @@
 //! An environment: one scenario, one world, its agents.
 
+use std::sync::Arc;
+
 use interplay_common::random::SplitMix64;
 use interplay_planners::drivers::external;
 use interplay_planners::perception::sensing::SensedScene;
@@ -8,7 +10,10 @@ use interplay_scenarios::Scenario;
 
 use super::agent_interface::{AgentInterface, goes_on};
 use super::episode::METRICS;
-use super::{ActionSpace, DiscreteMeta, EnvironmentError, EnvironmentSettings, Episode, ObservationSpace};
+use super::{
+    ActionSpace, DiscreteMeta, EnvironmentError, EnvironmentSettings, Episode, EpisodeStart, ObservationSpace,
+    StreetDraw,
+};
 use crate::Simulation;
 use crate::measure::Subscriptions;
 use crate::report::Report;
@@ -17,17 +22,24 @@ use crate::report::Report;
 ///
 /// Numbers of several agents follow one another in the order of [`Environment::agents`].
 pub struct Environment {
-    scenario: Scenario,
-    settings: EnvironmentSettings,
-    seeds: SplitMix64,
+    pub(super) scenario: Arc<Scenario>,
+    pub(super) settings: Arc<EnvironmentSettings>,
+    pub(super) seeds: SplitMix64,
+    /// The name of the street of the episode, if streets are drawn.
+    pub(super) street: Option<String>,
     /// Number of plans from one decision to the next.
-    plans_per_decision: usize,
-    seats: Vec<Seat>,
-    world: Option<Simulation>,
-    time_s: f64,
+    pub(super) plans_per_decision: usize,
+    pub(super) seats: Vec<Seat>,
+    pub(super) world: Option<Simulation>,
+    pub(super) time_s: f64,
+    /// How the episode began; `None` before the first.
+    pub(super) episode_start: Option<EpisodeStart>,
+    /// The numbers of all decisions of the episode.
+    pub(super) decisions: Vec<f32>,
 }
 
-struct Seat {
+#[derive(Clone)]
+pub(super) struct Seat {
     vehicle: usize,
     name: String,
     interface: AgentInterface,
@@ -41,7 +53,28 @@ impl Environment {
     /// # Errors
     /// [`EnvironmentError`] names the invalid setting, and what would work.
     pub fn new(scenario: &Scenario, settings: &EnvironmentSettings) -> Result<Environment, EnvironmentError> {
-        let mut scenario = scenario.clone().without_counterfactuals();
+        if let Some(reason) = settings.streets.as_ref().and_then(StreetDraw::fault) {
+            return Err(EnvironmentError::Setting { setting: "streets", reason });
+        }
+        let mut environment = Environment {
+            scenario: Arc::new(scenario.clone()),
+            settings: Arc::new(settings.clone()),
+            seeds: SplitMix64::new(scenario.seed),
+            street: None,
+            plans_per_decision: 1,
+            seats: Vec::new(),
+            world: None,
+            time_s: 0.0,
+            episode_start: None,
+            decisions: Vec::new(),
+        };
+        environment.play(scenario)?;
+        Ok(environment)
+    }
+
+    /// Makes a scenario the one of the following episodes, with its agents driven from outside.
+    fn play(&mut self, scenario: &Scenario) -> Result<(), EnvironmentError> {
+        let (mut scenario, settings) = (scenario.clone().without_counterfactuals(), &self.settings);
         let agents = agents(&scenario, settings)?;
         let plan_s = scenario.step_s * scenario.ticks_per_plan as f64;
         let Some(ego) = scenario.ego() else { return Err(EnvironmentError::NoVehicles) };
@@ -61,20 +94,14 @@ impl Environment {
             episode: Episode::default(),
             sensed: None,
         };
-        Ok(Environment {
-            seats: agents.into_iter().map(seat).collect(),
-            seeds: SplitMix64::new(scenario.seed),
-            plans_per_decision,
-            settings: settings.clone(),
-            scenario,
-            world: None,
-            time_s: 0.0,
-        })
+        self.seats = agents.into_iter().map(seat).collect();
+        (self.plans_per_decision, self.scenario) = (plans_per_decision, Arc::new(scenario));
+        Ok(())
     }
 
     /// The same environment, whose episodes end without a full report.
     pub(super) fn without_report(mut self) -> Environment {
-        self.settings.report = false;
+        Arc::make_mut(&mut self.settings).report = false;
         self
     }
 
@@ -103,6 +130,16 @@ impl Environment {
         self.seats[0].interface.action_space()
     }
 
+    /// What is the same in all environments that may replace each other.
+    pub(super) fn spaces(&self) -> (Vec<ObservationSpace>, ActionSpace, usize) {
+        (self.observation_spaces(), self.action_space(), self.seats.len())
+    }
+
+    /// The name of the street of the episode, if streets are drawn.
+    pub fn street(&self) -> Option<&str> {
+        self.street.as_deref()
+    }
+
     /// Number of numbers of each agent's observation.
     pub fn observation_len(&self) -> usize {
         self.seats[0].interface.observation_len()
@@ -116,8 +153,8 @@ impl Environment {
         if let Some(seed) = seed {
             self.seeds = SplitMix64::new(seed);
         }
-        let drawn = self.settings.start.drawn(&self.scenario, self.seeds.next_u64());
-        self.begin(&drawn)
+        let seed = self.seeds.next_u64();
+        self.begin(EpisodeStart::Drawn(seed))
     }
 
     /// Begins the episode of the scenario as written, with a seed of its random numbers, as `interplay run --seed` does.
@@ -125,18 +162,35 @@ impl Environment {
     /// # Errors
     /// As [`Environment::reset`].
     pub fn reset_as_written(&mut self, seed: u64) -> Result<(), EnvironmentError> {
-        self.begin(&Scenario { seed, ..self.scenario.clone() })
+        self.begin(EpisodeStart::AsWritten(seed))
     }
 
-    fn begin(&mut self, drawn: &Scenario) -> Result<(), EnvironmentError> {
-        let world = Simulation::builder(drawn).subscribed_to(self.subscriptions()).build()?;
-        let starts = drawn.starts();
-        let (settings, horizon) = (&self.settings, drawn.horizon_steps);
+    /// Begins an episode that depends only on its start.
+    pub(super) fn begin(&mut self, start: EpisodeStart) -> Result<(), EnvironmentError> {
+        let settings = Arc::clone(&self.settings);
+        let (EpisodeStart::Drawn(seed) | EpisodeStart::AsWritten(seed)) = start;
+        if let Some(streets) = &settings.streets {
+            let (name, street) = streets.drawn(seed)?;
+            let spaces = self.spaces();
+            self.play(&street)?;
+            if self.spaces() != spaces {
+                let reason = format!("`{name}` has other spaces; choose observations and actions without a horizon");
+                return Err(EnvironmentError::Setting { setting: "streets", reason });
+            }
+            self.street = Some(name);
+        }
+        let drawn = match start {
+            EpisodeStart::Drawn(seed) => settings.start.drawn(&self.scenario, seed),
+            EpisodeStart::AsWritten(seed) => Scenario { seed, ..(*self.scenario).clone() },
+        };
+        let world = Simulation::builder(&drawn).subscribed_to(self.subscriptions()).build()?;
+        let (starts, horizon) = (drawn.starts(), drawn.horizon_steps);
         for seat in &mut self.seats {
             seat.interface = AgentInterface::new(&settings.observations, settings.action, horizon);
             seat.episode = Episode::begin(&drawn.vehicles[seat.vehicle], &starts[seat.vehicle]);
         }
-        (self.world, self.time_s) = (Some(world), 0.0);
+        (self.world, self.time_s, self.episode_start) = (Some(world), 0.0, Some(start));
+        self.decisions.clear();
         self.look()
     }
 
@@ -168,6 +222,8 @@ impl Environment {
     /// [`EnvironmentError`] if no episode is in progress or an action is invalid; then nothing has moved.
     pub fn step(&mut self, actions: &[f32]) -> Result<(), EnvironmentError> {
         self.decide(actions)?;
+        // Ignored numbers of agents whose episode is over may be infinite, which no text could hold.
+        self.decisions.extend(actions.iter().map(|number| if number.is_finite() { *number } else { 0.0 }));
         for _ in 0..self.plans_per_decision {
             self.hand_in()?;
             let is_over = self.step_to_next_plan()?;
@@ -306,6 +362,8 @@ impl Environment {
     /// # Errors
     /// [`EnvironmentError::Run`] if a watcher failed.
     pub fn finish(&mut self) -> Result<Option<Report>, EnvironmentError> {
+        self.episode_start = None;
+        self.decisions.clear();
         Ok(self.world.take().map(Simulation::finish).transpose()?)
     }
 }

@@ -17,7 +17,7 @@ pub fn sense(
     current_frame.0 = Frame { tick: clock.tick, time_s: clock.time_s(), plans, ..Frame::default() };
     for (row, mut driving, handed_in) in &mut vehicles {
         driving.plan_ms = 0.0;
-        traffic.0.road_users[row.0].asked_for = driving.asked_for(handed_in);
+        traffic.0.road_users[row.0].may_react = driving.may_react(handed_in);
     }
     if plans {
         traffic.0.begin_plan(clock.plans(), clock.time_s());

@@ -276,6 +276,7 @@ impl Simulation {
             user.goes_first = new.driver.goes_first();
             user.knows_plans = new.knows_plans();
             user.reaction_s = new.driver.reaction_s();
+            user.patience_s = new.driver.patience_s();
             user.decides = new.driver.is_vetoed();
         }
         self.scenario = Arc::new(changed.clone());

@@ -86,6 +86,9 @@ pub enum RunError {
     /// A part of the world cannot be copied.
     #[error(transparent)]
     NotCopied(#[from] NotCopied),
+    /// The caller has ended the run.
+    #[error("the run was cancelled")]
+    Cancelled,
     /// An earlier step has failed.
     #[error("the run has ended with an error: restore a snapshot, or begin anew")]
     Ended,

@@ -151,6 +151,24 @@ impl Snapshot {
     }
 }
 
+impl Simulation {
+    /// A copy that continues on its own, without watchers: [`Simulation::snapshot`] and [`Snapshot::resume`] in one, with one copy of the
+    /// state instead of two.
+    ///
+    /// # Errors
+    /// As [`Simulation::snapshot`].
+    pub fn fork(&self) -> Result<Simulation, RunError> {
+        let mut world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
+        self.extensions.refuse_uncopied(&self.world, &world)?;
+        self.extensions.copy_states(&self.world, &mut world);
+        let (scenario, extensions) = (Arc::clone(&self.scenario), self.extensions.clone());
+        let mut copy = Simulation::assembled(self.name.clone(), scenario, self.time_points.clone(), world, extensions)?;
+        copy.inputs.clone_from(&self.inputs);
+        copy.replaced.clone_from(&self.replaced);
+        Ok(copy)
+    }
+}
+
 /// A copy of all state of a simulation between two of its steps: the planners' memory and beliefs, the bodies and their
 /// contacts, the noise of sensors, the building within its day, the measures, and the inputs from outside.
 ///

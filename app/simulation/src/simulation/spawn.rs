@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
 use interplay_planners::rules::RoadRules;
-use interplay_planners::traffic::{AskedFor, RoadUser};
+use interplay_planners::traffic::RoadUser;
 use interplay_planners::{Agent, Goal, Input, State};
 use interplay_scenarios::{Scenario, Vehicle};
 
@@ -63,7 +63,7 @@ fn road_user(scenario: &Scenario, vehicle: &Vehicle, state: State) -> RoadUser {
         comfort: vehicle.weights.comfort(),
         safety: vehicle.safety,
     };
-    let agent = Agent {
+    let mut agent = Agent {
         name: vehicle.name.clone(),
         state,
         previous_input: Input { acceleration_mps2: vehicle.start_acceleration_mps2, steering_rad: 0.0 },
@@ -79,25 +79,21 @@ fn road_user(scenario: &Scenario, vehicle: &Vehicle, state: State) -> RoadUser {
         urgency: 1.0,
         own_place: Default::default(),
     };
+    // Wheels that take time to turn are turned along the road at the start.
+    if agent.limits.steering_rate_max_radps.is_some() {
+        agent.previous_input.steering_rad = agent.steering_along_road_rad();
+    }
     RoadUser {
         knows_plans: vehicle.knows_plans(),
         tells_plan: vehicle.tells_plan(),
         reaction_s: vehicle.driver.reaction_s(),
+        patience_s: vehicle.driver.patience_s(),
         decides: vehicle.driver.is_vetoed(),
-        asked_for: asked_for(vehicle),
+        may_react: vehicle.driver.reacts() && vehicle.sensing.is_none(),
         keeps_rules: vehicle.keeps_rules(),
         presence: vehicle.stay.presence_at_start(),
         stay: vehicle.stay,
         record: vehicle.driver.record().map(Arc::new),
         ..RoadUser::new(agent, goal, vehicle.driver.goes_first())
-    }
-}
-
-/// What the driver of a vehicle is asked for at the first plan.
-fn asked_for(vehicle: &Vehicle) -> AskedFor {
-    match &vehicle.driver {
-        driver if driver.is_driven_from_outside() => AskedFor::Nothing,
-        driver if driver.reacts() && vehicle.sensing.is_none() => AskedFor::Input,
-        _ => AskedFor::Plan,
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
 use interplay_planners::perception::sensing::{Sensor, Sight};
-use interplay_planners::traffic::{AskedFor, RoadUser, Traffic};
+use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::{Input, Planner};
 
 use crate::state::detail::{LevelOfDetail, NotCopied};
@@ -44,13 +44,9 @@ pub struct Driving {
 }
 
 impl Driving {
-    /// What the driver is asked for at the next plan, given what is handed in from outside.
-    pub fn asked_for(&self, handed_in: &HandedIn) -> AskedFor {
-        match handed_in {
-            HandedIn::NotExternal if self.planner.reacts() && self.sensor.is_none() => AskedFor::Input,
-            HandedIn::NotExternal => AskedFor::Plan,
-            HandedIn::Awaited | HandedIn::Input(_) | HandedIn::Plan(_) => AskedFor::Nothing,
-        }
+    /// Whether the driver may be asked for an input at the next plan, given what is handed in from outside.
+    pub fn may_react(&self, handed_in: &HandedIn) -> bool {
+        *handed_in == HandedIn::NotExternal && self.planner.reacts() && self.sensor.is_none()
     }
 
     /// A copy with the same memory, for the driver of the vehicle called `name`.

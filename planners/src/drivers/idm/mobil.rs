@@ -11,15 +11,34 @@
 //! known: they are taken to be content with their present speeds.
 
 use super::Settings;
-use crate::Scene;
-use crate::drivers::lanes::{Leader, RoadLanes, follower, leader};
+use crate::drivers::lanes::{Leader, RoadLanes, at, follower, is_in, leader};
 use crate::scene::relation::is_standing;
+use crate::{Agent, Scene};
 
 /// A lane and by how much it is better than staying, threshold included; negative for staying.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LaneChoice {
     pub lane: usize,
     pub incentive_mps2: f64,
+}
+
+/// A vehicle that comes into the lane beside within this time is looked at, of real vehicles \[s\],
+pub(super) const LOOK_AHEAD_S: f64 = 3.0;
+/// and it is beside the own one up to this gap between bumpers, of real vehicles \[m\].
+pub(super) const BESIDE_GAP_M: f64 = 2.0;
+/// Of the way to the other lane, a vehicle turns back from a change up to this share of the width of a lane.
+const TURNING_BACK: f64 = 0.3;
+
+/// What a vehicle sees of the lanes of its road.
+pub(super) trait SeenLanes {
+    /// What is ahead in a lane, and who is behind.
+    fn seen(&self, lane: usize) -> LaneTraffic;
+
+    /// Whether a vehicle is expected in a lane right beside the own one, which keeps its speed.
+    fn is_taken(&self, lane: usize) -> bool;
+
+    /// Whether there is room to leave the own lane.
+    fn has_room(&self) -> bool;
 }
 
 /// What a vehicle sees of a lane: what is ahead in it, and who is behind.
@@ -54,12 +73,12 @@ impl Changing {
     /// The planning vehicle of a scene.
     pub fn of(scene: &Scene) -> Changing {
         let Scene { ego, goal, .. } = scene;
-        let position = ego.state.position();
+        let place = ego.place();
         Changing {
-            along_m: ego.route.along(position),
+            along_m: place.along_m,
             front_m: ego.body.front_m,
             rear_m: ego.body.rear_m,
-            across_m: ego.route.across(position),
+            across_m: place.across_m,
             goal_across_m: ego.route.across(goal.target.position()),
             speed_mps: ego.state.speed_mps,
             wanted_mps: goal.target.speed_mps,
@@ -67,33 +86,67 @@ impl Changing {
     }
 }
 
-/// The lane of a scene to drive in: `now`, or a neighbour that pays. A change under way is finished first.
-pub(super) fn choose(scene: &Scene, settings: &Settings, lanes: &RoadLanes, now: usize) -> LaneChoice {
-    let own = Changing::of(scene);
-    let seen = |lane: usize| LaneTraffic {
-        ahead: leader(scene, lanes, lane, &scene.ego.state, 0),
-        behind: follower(scene, lanes, lane).map(|behind| Follower {
-            front_m: scene.ego.route.along(behind.state.position()) + behind.body.front_m,
-            speed_mps: behind.state.speed_mps,
-        }),
-    };
-    choose_among(&own, settings, lanes, now, seen, || has_room_to_swing_out(scene))
+/// The lanes as the planning vehicle of a scene sees them. Beside itself it looks at all `others`, those too whose ways only join its own.
+pub(super) struct LanesOfScene<'a> {
+    pub scene: &'a Scene,
+    pub others: &'a [Agent],
+    pub lanes: &'a RoadLanes,
 }
 
-/// The same of a vehicle with what it sees of each lane, and whether it has room to leave its own.
-pub(super) fn choose_among(
+impl SeenLanes for LanesOfScene<'_> {
+    fn seen(&self, lane: usize) -> LaneTraffic {
+        let Scene { ego, .. } = self.scene;
+        let behind = follower(self.scene, self.lanes, lane).map(|behind| Follower {
+            front_m: ego.route.along(behind.state.position()) + behind.body.front_m,
+            speed_mps: behind.state.speed_mps,
+        });
+        LaneTraffic { ahead: leader(self.scene, self.lanes, lane, &ego.state, 0), behind }
+    }
+
+    /// Only a driver that sees motion expects it.
+    fn is_taken(&self, lane: usize) -> bool {
+        let Scene { ego, knowledge, step_s, .. } = self.scene;
+        let ratio = ego.body.real_ratio();
+        let steps = (LOOK_AHEAD_S * ratio.sqrt() / step_s).ceil() as usize;
+        let (own_m, reach_m) = (ego.along_m(), BESIDE_GAP_M * ratio);
+        let comes = |other: &Agent| {
+            (0..=steps).any(|t| {
+                let there = ego.route.locate(at(other, t).position(), None);
+                let lead_m = there.along_m - own_m - ego.state.speed_mps * step_s * t as f64;
+                let beside_m = if lead_m > 0.0 {
+                    lead_m - ego.body.front_m - other.body.rear_m
+                } else {
+                    -lead_m - ego.body.rear_m - other.body.front_m
+                };
+                beside_m < reach_m && is_in(self.scene, self.lanes, lane, other, t)
+            })
+        };
+        knowledge.is_of_motion() && self.others.iter().any(|other| !other.is_obstacle && comes(other))
+    }
+
+    fn has_room(&self) -> bool {
+        has_room_to_swing_out(self.scene)
+    }
+}
+
+/// The lane to drive in: `now`, or a neighbour that pays. A change under way is finished first, unless the lane is taken at its begin.
+pub(super) fn choose(
     own: &Changing,
     settings: &Settings,
     lanes: &RoadLanes,
     now: usize,
-    seen: impl Fn(usize) -> LaneTraffic,
-    has_room: impl Fn() -> bool,
+    seen: &impl SeenLanes,
 ) -> LaneChoice {
     let mobil = &settings.mobil;
     let off_centre = own.across_m - lanes.centre_m(now);
     let goal = lanes.at(own.goal_across_m);
     let mut best = LaneChoice { lane: now, incentive_mps2: f64::NEG_INFINITY };
     if off_centre.abs() > 0.25 * lanes.width_m() {
+        let nearest = lanes.at(own.across_m);
+        let may_turn_back = (own.across_m - lanes.centre_m(nearest)).abs() < TURNING_BACK * lanes.width_m();
+        if nearest != now && may_turn_back && seen.is_taken(now) {
+            return LaneChoice { lane: nearest, incentive_mps2: 0.0 };
+        }
         return LaneChoice { incentive_mps2: 0.0, ..best };
     }
     let beside = [now.checked_sub(1), Some(now + 1).filter(|lane| *lane < lanes.count())].into_iter().flatten();
@@ -101,10 +154,13 @@ pub(super) fn choose_among(
     // A driver does not change to a lane that it will have to leave again.
     for lane in beside.filter(|lane| lanes.end_m(*lane).is_none()) {
         let nearer = if lane.abs_diff(goal) < now.abs_diff(goal) { 1.0 } else { -1.0 };
-        let here = *here.get_or_insert_with(|| seen(now));
-        let change = Change { own, settings, here, there: seen(lane) };
+        if seen.is_taken(lane) {
+            continue;
+        }
+        let here = *here.get_or_insert_with(|| seen.seen(now));
+        let change = Change { own, settings, here, there: seen.seen(lane) };
         let advantage = change.advantage() + nearer * mobil.bias_mps2 - mobil.threshold_mps2;
-        let incentive_mps2 = if change.is_gentle() && has_room() { advantage } else { -mobil.threshold_mps2 };
+        let incentive_mps2 = if change.is_gentle() && seen.has_room() { advantage } else { -mobil.threshold_mps2 };
         if incentive_mps2 > best.incentive_mps2 {
             best = LaneChoice { lane: if incentive_mps2 > 0.0 { lane } else { now }, incentive_mps2 };
         }

@@ -19,9 +19,9 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::drivers::drive::StandardReplacement;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
-use crate::drivers::lanes::{RoadLanes, follower, leader};
+use crate::drivers::lanes::{RoadLanes, leader};
 use crate::drivers::reaction::Reaction;
-use crate::road::network::ConflictKind;
+use crate::road::network::{ConflictKind, Precedence, RouteConflict};
 use crate::rules::obstacle::ObstacleMemory;
 use crate::rules::right_of_way::ArrivalMemory;
 use crate::scene::Moment;
@@ -30,6 +30,7 @@ use crate::scene::relation::{Relation, is_on_strip};
 use crate::scene::road_rules::Obstacle;
 use crate::{Agent, Plan, PlanError, PlanEvent, PlanTime, Scene};
 use diagnostics::{GAP, INCENTIVE, LANE};
+use mobil::{Changing, LanesOfScene};
 use motion::Motion;
 
 /// Free space beside what stands, for 1/10 scale cars \[m\].
@@ -61,9 +62,7 @@ impl Idm {
         let end_m = prediction.states.last().map_or(here_m, |end| route.across(end.position()));
         let is_taken = |lane: &usize| {
             let from_m = |across_m: f64| (across_m - lanes.centre_m(*lane)).abs();
-            // A driver that reacts has no plan that could be refused; it goes back from a vehicle beside it.
-            let is_open = prediction.states.is_empty() && !is_beside(scene, lanes, *lane);
-            *lane == nearest || !scene.knowledge.is_of_motion() || is_open || from_m(end_m) < from_m(here_m)
+            *lane == nearest || !scene.knowledge.is_of_motion() || from_m(end_m) < from_m(here_m)
         };
         self.lane_centre_m.map(|centre_m| lanes.at(centre_m)).filter(is_near).filter(is_taken).unwrap_or(nearest)
     }
@@ -84,6 +83,11 @@ impl DriverKind for Settings {
 
     fn plan_time(&self) -> PlanTime {
         PlanTime::SIMPLE
+    }
+
+    /// The model changes lanes by its own rule, which knows no oncoming traffic.
+    fn patience_s(&self) -> f64 {
+        f64::INFINITY
     }
 
     fn prediction(&self) -> Option<crate::prediction::Prediction> {
@@ -144,15 +148,19 @@ impl Drive for Idm {
         };
         let whole = self.settings.prediction.applied_to(&along_the_road(scene)).into_owned();
         let is_in_the_way = |other: &Agent| !other.is_obstacle || is_on_path(&whole, other);
-        let is_minded =
-            |other: &&Agent| is_in_the_way(other) && passed.as_ref().is_none_or(|obstacle| obstacle.name != other.name);
+        let is_minded = |other: &&Agent| {
+            is_in_the_way(other) && passed.as_ref().is_none_or(|row| !row.is_passed_with(&scene.ego, other))
+        };
         let minded = with_others(&whole, is_minded);
         let lanes = RoadLanes::of_road(&minded, self.settings.mobil.lane_width_m);
         let now = self.lane(&minded, &lanes);
-        let choice = mobil::choose(&minded, &self.settings, &lanes, now);
+        let seen_lanes = LanesOfScene { scene: &minded, others: &scene.others, lanes: &lanes };
+        let choice = mobil::choose(&Changing::of(&minded), &self.settings, &lanes, now, &seen_lanes);
         self.lane_centre_m = Some(lanes.centre_m(choice.lane));
         let line_m = seen.ego.rules.stop_line_m;
         let from_to = [now, choice.lane];
+        let joins = |other: &Agent| has_to_let_go_first(&minded.ego, other);
+        let owed = minded.others.iter().any(joins).then(|| with_others(&minded, |other| !joins(other)));
         let motion = Motion {
             settings: &self.settings,
             own: &minded.ego,
@@ -163,14 +171,14 @@ impl Drive for Idm {
             line_m,
             passed: passed.as_ref(),
         };
-        let mut trajectory = motion.driven(&minded);
+        let mut trajectory = motion.driven(&minded, owed.as_deref());
         // Who has begun to pass goes on unless it would touch.
         let spaces = |obstacle: &Obstacle| if was_passing.as_ref() == Some(&obstacle.name) { 0.0 } else { 1.0 };
         let is_touched = |obstacle: &&Obstacle| obstacle.is_touched_by(&whole, &trajectory, spaces(obstacle));
         if let Some(obstacle) = passed.as_ref().filter(is_touched) {
             let behind_m = obstacle.line_m(&whole);
             let line_m = Some(line_m.map_or(behind_m, |line_m: f64| line_m.min(behind_m)));
-            trajectory = Motion { line_m, passed: None, ..motion }.driven(&whole);
+            trajectory = Motion { line_m, passed: None, ..motion }.driven(&whole, None);
         }
         let ahead = leader(&minded, &lanes, choice.lane, &minded.ego.state, 0);
         let mut diagnostics = vec![LANE.is(choice.lane as f64), INCENTIVE.is(choice.incentive_mps2)];
@@ -198,14 +206,6 @@ impl Drive for Idm {
     }
 }
 
-/// Whether a vehicle is beside the planning vehicle in a lane, or partly in it.
-fn is_beside(scene: &Scene, lanes: &RoadLanes, lane: usize) -> bool {
-    let reach_m =
-        |other: &Agent| 0.5 * (scene.ego.body.front_m + scene.ego.body.rear_m + other.body.front_m + other.body.rear_m);
-    let ahead = leader(scene, lanes, lane, &scene.ego.state, 0).is_some_and(|leader| leader.gap_m < 0.0);
-    ahead || follower(scene, lanes, lane).is_some_and(|other| -scene.ego.lead_of(other) < reach_m(other))
-}
-
 /// Whether an obstacle reaches into the path of the planning vehicle, or so near that it would touch it.
 fn is_on_path(scene: &Scene, obstacle: &Agent) -> bool {
     let ego = &scene.ego;
@@ -223,6 +223,12 @@ fn along_the_road(scene: &Scene) -> Cow<'_, Scene> {
         |other: &Agent| matches!(ego.relation(other), Relation::Conflict(at) if at.kind == ConflictKind::Merging);
     let joins_ahead = |other: &Agent| ego.limits.comfort.is_some() && joins(other) && is_on_strip(ego, other);
     with_others(scene, |other| ego.relation(other) == Relation::Alongside || joins_ahead(other))
+}
+
+/// Whether another vehicle joins the way of one who goes first, and is not in its lane yet.
+fn has_to_let_go_first(ego: &Agent, other: &Agent) -> bool {
+    let joins = |at: &RouteConflict| at.kind == ConflictKind::Merging && at.precedence == Precedence::Own;
+    ego.limits.comfort.is_some() && matches!(ego.relation(other), Relation::Conflict(at) if joins(at))
 }
 
 /// The scene with only those others for which a condition holds.

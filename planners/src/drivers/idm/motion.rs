@@ -17,6 +17,14 @@ const AIM: f64 = 1.1;
 /// Distance that a driver looks ahead, as a multiple of the way on which comfortable braking builds up.
 const LOOKING_AHEAD: f64 = 0.75;
 
+/// Braking with which a driver lets a vehicle in that has to let it go first, until it is so much slower than it wants, of real vehicles
+/// \[m/s²\], \[m/s\].
+const COURTESY_MPS2: f64 = 1.0;
+const COURTESY_MPS: f64 = 3.0;
+
+/// Time in which it comes to the speed at which it waits for its gap, of real vehicles \[s\].
+const MERGING_S: f64 = 1.5;
+
 /// How a driver drives.
 #[derive(Clone, Copy)]
 pub(super) struct Motion<'a> {
@@ -33,23 +41,34 @@ pub(super) struct Motion<'a> {
 }
 
 impl Motion<'_> {
-    /// The motion over the horizon of a scene, whose others it follows.
-    pub fn driven(&self, scene: &Scene) -> Trajectory {
+    /// The motion over the horizon of a scene, whose others it follows; `owed` is the same without those who have to let it go first and are
+    /// not in its lane yet, if there are any.
+    pub fn driven(&self, scene: &Scene, owed: Option<&Scene>) -> Trajectory {
         let mut before = self.own.previous_input;
         roll_out(scene, |t, state| {
             // In the lane that it leaves it minds the vehicle ahead until it is out of it.
             let [from, to] = self.from_to;
-            let taken = leader(scene, &self.lanes, to, state, t);
-            let left = if from == to { taken } else { leader(scene, &self.lanes, from, state, t) };
-            before = self.input(state, &before, [left, taken]);
+            let ahead = |scene: &Scene| {
+                let taken = leader(scene, &self.lanes, to, state, t);
+                [if from == to { taken } else { leader(scene, &self.lanes, from, state, t) }, taken]
+            };
+            before = self.input(state, &before, ahead(scene), owed.map(ahead));
             before
         })
     }
 
-    /// The input at a state after another one, behind what is ahead in the lane that it leaves and in the one that it takes.
-    pub fn input(&self, state: &State, before: &Input, ahead: [Option<Leader>; 2]) -> Input {
+    /// The input at a state after another one, behind what is ahead in the lane that it leaves and in the one that it takes; `owed` is what
+    /// would be ahead without those who have to let it go first.
+    pub fn input(
+        &self,
+        state: &State,
+        before: &Input,
+        ahead: [Option<Leader>; 2],
+        owed: Option<[Option<Leader>; 2]>,
+    ) -> Input {
         let (own, step_s) = (self.own, self.step_s);
-        let lane_m = self.lanes.centre_m(self.from_to[1]);
+        let edge_m = own.rules.drives_at_m.filter(|_| own.rules.evades.is_some());
+        let lane_m = edge_m.unwrap_or_else(|| self.lanes.centre_m(self.from_to[1]));
         // Straight roads have neither lines nor speed limits.
         let along_m = own.route.straight().is_none().then(|| own.route.along(state.position()));
         let passed = self.passed.zip(along_m.map(|along_m| along_m + own.body.front_m));
@@ -62,13 +81,19 @@ impl Motion<'_> {
             None => steer(own, state, lateral_m),
             Some(_) => steer_over_step(own, state, lateral_m, step_s),
         };
-        let wanted = Input { acceleration_mps2: self.acceleration_mps2(state, along_m, ahead), steering_rad };
+        let wanted = Input { acceleration_mps2: self.acceleration_mps2(state, along_m, ahead, owed), steering_rad };
         let Input { acceleration_mps2, steering_rad } = own.comfortably(before, wanted, state.speed_mps, step_s);
         Input { acceleration_mps2: admissible(own, state, acceleration_mps2, step_s), steering_rad }
     }
 
     /// What the model wants behind the vehicles ahead, within what is permitted.
-    fn acceleration_mps2(&self, state: &State, along_m: Option<f64>, [left, taken]: [Option<Leader>; 2]) -> f64 {
+    fn acceleration_mps2(
+        &self,
+        state: &State,
+        along_m: Option<f64>,
+        [left, taken]: [Option<Leader>; 2],
+        owed: Option<[Option<Leader>; 2]>,
+    ) -> f64 {
         let Motion { settings, own, wanted_mps, .. } = *self;
         let line = self.line_m.zip(along_m);
         let line = line.map(|(line_m, along_m)| Leader { gap_m: line_m - along_m - own.body.front_m, speed_mps: 0.0 });
@@ -83,6 +108,16 @@ impl Motion<'_> {
             places_m.and_then(|places_m| least(places_m.map(|along_m| own.permitted_speed_mps(along_m))));
         let wanted_mps = permitted_mps.map_or(wanted_mps, |permitted_mps| permitted_mps.min(wanted_mps));
         let acceleration = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
+        let acceleration = owed.map_or(acceleration, |[left, taken]| {
+            let alone = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
+            let lost_mps = wanted_mps - state.speed_mps;
+            let is_slow = lost_mps > COURTESY_MPS * own.body.real_ratio().sqrt();
+            acceleration.max(alone.min(if is_slow { 0.0 } else { -COURTESY_MPS2 }))
+        });
+        // It slows down evenly for its gap.
+        let merging_mps2 =
+            own.merging_speed_mps().map(|mps| (mps - state.speed_mps) / (MERGING_S * own.body.real_ratio().sqrt()));
+        let acceleration = merging_mps2.map_or(acceleration, |merging_mps2| acceleration.min(merging_mps2));
         // On a free road the model brakes too weakly for a limit ahead.
         let highest = |along_m: f64| own.permitted_acceleration_mps2(along_m, state.speed_mps, self.step_s);
         let highest_mps2 = places_m.and_then(|places_m| least(places_m.map(highest)));

@@ -1,9 +1,9 @@
 //! The answer of a driver on a straight road who sees the others by lanes: the model itself, at the present moment.
 
 use super::diagnostics::{GAP, INCENTIVE, LANE};
-use super::mobil::{Changing, Follower, LaneTraffic, choose_among};
+use super::mobil::{BESIDE_GAP_M, Changing, Follower, LOOK_AHEAD_S, LaneTraffic, SeenLanes, choose};
 use super::motion::Motion;
-use super::{BESIDE_OBSTACLE_M, Settings};
+use super::Settings;
 use crate::Agent;
 use crate::drivers::lanes::{Leader, RoadLanes, lane_ends};
 use crate::drivers::reaction::Reaction;
@@ -38,8 +38,8 @@ pub(super) fn answer(settings: &Settings, lane_m: Option<f64>, moment: &Moment<'
     let driver = Driver { own, road, lanes, changing };
     let here = lanes.at(across_m);
     let chosen = lane_m.map_or(here, |lane_m| lanes.at(lane_m));
-    let now = if chosen != here && driver.is_taken(chosen) { here } else { chosen };
-    let choice = choose_among(&changing, settings, &lanes, now, |lane| driver.seen(lane), || driver.has_room());
+    let now = if chosen != here && driver.is_blocked(chosen) { here } else { chosen };
+    let choice = choose(&changing, settings, &lanes, now, &driver);
     let taken = driver.ahead(choice.lane);
     let left = if here == choice.lane { taken } else { driver.ahead(here) };
     let motion = Motion {
@@ -52,7 +52,7 @@ pub(super) fn answer(settings: &Settings, lane_m: Option<f64>, moment: &Moment<'
         line_m: None,
         passed: None,
     };
-    let input = motion.input(&own.state, &own.previous_input, [left, taken]);
+    let input = motion.input(&own.state, &own.previous_input, [left, taken], None);
     let lane_m = lanes.centre_m(choice.lane);
     let reaction = Reaction {
         input,
@@ -73,35 +73,43 @@ impl Driver<'_> {
         Strip { centre_m: self.lanes.centre_m(lane), width_m: self.lanes.width_m() }
     }
 
-    /// Whether another vehicle counts: an obstacle only if it reaches into the path.
-    fn counts(&self, other: &OnRoad) -> bool {
-        let reach_m = 0.5 * (self.own.body.width_m + other.width_m) + BESIDE_OBSTACLE_M * self.own.body.scale;
-        let paths_m = [self.changing.across_m, self.changing.goal_across_m];
-        !other.is_obstacle || paths_m.iter().any(|path_m| (other.across_m - path_m).abs() < reach_m)
-    }
-
     fn ahead(&self, lane: usize) -> Option<Leader> {
-        let vehicle = self.road.ahead(self.strip(lane), |other| self.counts(other));
+        let vehicle = self.road.ahead(self.strip(lane), |_| true);
         let vehicle = vehicle.map(|(leader, gap_m)| Leader { gap_m, speed_mps: leader.speed_mps });
         let ends = lane_ends(self.own, &self.lanes, lane, self.changing.along_m);
         vehicle.into_iter().chain(ends).min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
     }
 
-    fn seen(&self, lane: usize) -> LaneTraffic {
-        let behind = self.road.behind(self.strip(lane), |other| self.counts(other));
-        let behind =
-            behind.map(|other| Follower { front_m: other.along_m + other.ends_m[0], speed_mps: other.speed_mps });
-        LaneTraffic { ahead: self.ahead(lane), behind }
-    }
-
     /// Whether a vehicle is beside it in the lane to which it changes, so that it goes back: one that is ahead by a part of a length, also
     /// if that comes from the other side, or one that drives there.
-    fn is_taken(&self, lane: usize) -> bool {
+    fn is_blocked(&self, lane: usize) -> bool {
         let strip = self.strip(lane);
         let drives_there = |other: &OnRoad| (other.across_m - strip.centre_m).abs() < 0.5 * strip.width_m;
         let rear_m = self.changing.along_m - self.changing.rear_m;
         let ahead = self.road.ahead(strip, |_| true).is_some_and(|(_, gap_m)| gap_m < 0.0);
         ahead || self.road.behind(strip, drives_there).is_some_and(|other| other.along_m + other.ends_m[0] > rear_m)
+    }
+}
+
+impl SeenLanes for Driver<'_> {
+    fn seen(&self, lane: usize) -> LaneTraffic {
+        let behind = self.road.behind(self.strip(lane), |_| true);
+        let behind =
+            behind.map(|other| Follower { front_m: other.along_m + other.ends_m[0], speed_mps: other.speed_mps });
+        LaneTraffic { ahead: self.ahead(lane), behind }
+    }
+
+    /// Of the vehicles ahead and behind it is the nearest that comes beside first, at their present speeds.
+    fn is_taken(&self, lane: usize) -> bool {
+        let (strip, ratio) = (self.strip(lane), self.own.body.real_ratio());
+        let (Changing { along_m, rear_m, speed_mps, .. }, until_s) = (self.changing, LOOK_AHEAD_S * ratio.sqrt());
+        let comes = |gap_m: f64, closing_mps: f64| gap_m - closing_mps.max(0.0) * until_s < BESIDE_GAP_M * ratio;
+        let ahead = self.road.ahead(strip, |_| true);
+        let behind = self.road.behind(strip, |_| true);
+        ahead.is_some_and(|(other, gap_m)| comes(gap_m, speed_mps - other.speed_mps))
+            || behind.is_some_and(|other| {
+                comes(along_m - rear_m - other.along_m - other.ends_m[0], other.speed_mps - speed_mps)
+            })
     }
 
     /// Whether it comes past what stands ahead in its way.

@@ -11,8 +11,9 @@ use crate::{Agent, Input, Scene, State, Trajectory};
 const ACCELERATION_SHARES: [f64; 4] = [-1.0, -0.5, 0.0, 1.0];
 /// Lateral positions of the last resorts besides straight on, in widths of the body to the left of the present one.
 const ASIDE_WIDTHS: [f64; 5] = [0.0, 1.0, -1.0, 2.0, -2.0];
-/// Corners may be beyond the edge by this share of the vehicle's length before that is called harmful.
-const SHOULDER: f64 = 0.1;
+/// Corners may be beyond the edge by this share of the vehicle's length before that is called harmful; of people's vehicles by the
+/// second one.
+const SHOULDERS: [f64; 2] = [0.1, 0.01];
 /// Impacts that differ by less are equally harmful \[m/s\].
 const IMPACT_TOLERANCE_MPS: f64 = 1e-6;
 
@@ -21,8 +22,10 @@ const IMPACT_TOLERANCE_MPS: f64 = 1e-6;
 pub struct Harm {
     /// The largest relative speed at which it first touches a vehicle \[m/s\]; none without a contact.
     pub impact_mps: Option<f64>,
-    /// Whether it leaves the road by more than a tenth of its length.
+    /// Whether it leaves the road by more than a tenth of its length; of people's vehicles, by more than a hundredth.
     pub leaves_road: bool,
+    /// Whether the road is not left in order to avoid a contact, or to weaken one.
+    prefers_road: bool,
 }
 
 impl Harm {
@@ -34,19 +37,26 @@ impl Harm {
         });
         // A value that is not a number counts as the worst.
         let impacts = impacts.map(|mps| if mps.is_nan() { f64::INFINITY } else { mps });
+        // Beside a road there may be a wall or a footway.
+        let prefers_road = scene.knowledge.is_of_motion();
         Harm {
             impact_mps: impacts.max_by(f64::total_cmp),
-            leaves_road: first_off_road(scene, motion, SHOULDER).is_some(),
+            leaves_road: first_off_road(scene, motion, SHOULDERS[usize::from(prefers_road)]).is_some(),
+            prefers_road,
         }
     }
 
     /// Whether the motion touches no vehicle and stays on the road.
     pub fn is_none(&self) -> bool {
-        *self == Harm::default()
+        self.impact_mps.is_none() && !self.leaves_road
     }
 
-    /// Whether a motion does less harm than another: a weaker impact, and of equal impacts one that stays on the road.
+    /// Whether a motion does less harm than another: a weaker impact, and of equal impacts one that stays on the road. Among people the
+    /// road comes first.
     fn is_less_than(&self, other: &Harm) -> bool {
+        if self.prefers_road && self.leaves_road != other.leaves_road {
+            return other.leaves_road;
+        }
         match (self.impact_mps, other.impact_mps) {
             (None, Some(_)) => true,
             (Some(_), None) => false,
@@ -178,4 +188,30 @@ pub(crate) fn rolled_out(scene: &Scene, inputs: Vec<Input>) -> Trajectory {
     let mut states = Vec::new();
     scene.model().roll_out(&scene.ego.state, &inputs, &mut states);
     Trajectory { states, inputs }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{real_car, scene};
+    use crate::prediction::{constant_velocity, steady};
+    use crate::scene::Knowledge;
+
+    /// To touch the car ahead at 1 m/s, or to leave the road beside it.
+    #[test]
+    fn people_stay_on_the_road_rather_than_avoid_a_contact() {
+        let (ego, mut ahead) = (real_car(0.0, 3.0), real_car(6.0, 2.0));
+        ahead.prediction = Arc::new(constant_velocity(&ahead.state, 30, 0.1));
+        let mut scene = scene(ego.clone(), vec![ahead]);
+        let straight = rolled_out(&scene, steady(&ego.state, 0.0, &ego.limits, 30, 0.1));
+        let mut aside = straight.clone();
+        (1..31).for_each(|stage| aside.states[stage].y_m = -(stage as f64));
+        for (knowledge, prefers_road) in [(Knowledge::Plans, false), (Knowledge::Motion { late_steps: 0 }, true)] {
+            scene.knowledge = knowledge;
+            let [straight, aside] = [&straight, &aside].map(|motion| Harm::measure(&scene, motion));
+            assert!(straight.impact_mps.is_some() && aside.leaves_road && aside.impact_mps.is_none());
+            assert_eq!(straight.is_less_than(&aside), prefers_road);
+            assert_eq!(aside.is_less_than(&straight), !prefers_road);
+        }
+    }
 }

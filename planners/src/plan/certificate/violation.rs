@@ -48,8 +48,16 @@ fn first_wrong_state(scene: &Scene, plan: &Trajectory) -> Option<usize> {
     (0..plan.states.len()).find(is_wrong)
 }
 
+/// The first input beyond the limits; the first of all, which is driven, also if the wheels cannot turn to it in time.
 fn first_input_beyond(scene: &Scene, plan: &Trajectory) -> Option<usize> {
-    let limits = &scene.ego.limits;
+    let (limits, last_rad) = (&scene.ego.limits, scene.ego.previous_input.steering_rad);
+    let is_out_of_reach = plan.inputs.first().is_some_and(|input| {
+        let reached_rad = limits.steering_towards_rad(last_rad, input.steering_rad, scene.step_s);
+        (input.steering_rad - reached_rad).abs() > LIMIT_TOLERANCE
+    });
+    if is_out_of_reach {
+        return Some(0);
+    }
     let accelerations = limits.acceleration_min_mps2 - LIMIT_TOLERANCE..=limits.acceleration_max_mps2 + LIMIT_TOLERANCE;
     let steering = -limits.steering_max_rad - LIMIT_TOLERANCE..=limits.steering_max_rad + LIMIT_TOLERANCE;
     plan.inputs

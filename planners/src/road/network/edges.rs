@@ -71,7 +71,8 @@ pub(super) fn strip(network: &RoadNetwork, centre: &CentreLine, legs: &[RouteLeg
         same_direction[1].push([along_m, edges_m[1][1]]);
         half_width.push([along_m, half_m]);
     }
-    let smoothed = |knots: Vec<[f64; 2]>, sign: f64| smooth_edge(knots, EQUAL_RATIO * narrowest_m, sign);
+    let smoothed =
+        |knots: Vec<[f64; 2]>, sign: f64| smooth_edge(knots, EQUAL_RATIO * narrowest_m, sign, MAX_EDGE_SLOPE);
     let [own_right, own_left] = same_direction;
     Strip {
         right: smoothed(right, -1.0),
@@ -142,19 +143,19 @@ impl Place<'_> {
     }
 }
 
-/// A profile that is nowhere beyond an edge and nowhere steeper than [`MAX_EDGE_SLOPE`], times `sign`.
-fn smooth_edge(places: Vec<[f64; 2]>, equal_m: f64, sign: f64) -> Profile {
+/// A profile that is nowhere beyond an edge and nowhere steeper than `slope`, times `sign`.
+pub(super) fn smooth_edge(places: Vec<[f64; 2]>, equal_m: f64, sign: f64, slope: f64) -> Profile {
     let mut knots = places.clone();
     // Where an edge jumps between two positions, both get the inner value, because the jump may be anywhere between them.
     for pair in 0..places.len().saturating_sub(1) {
         let (before, after) = (places[pair], places[pair + 1]);
-        if (after[1] - before[1]).abs() > MAX_EDGE_SLOPE * (after[0] - before[0]) {
+        if (after[1] - before[1]).abs() > slope * (after[0] - before[0]) {
             knots[pair][1] = knots[pair][1].min(after[1]);
             knots[pair + 1][1] = knots[pair + 1][1].min(before[1]);
         }
     }
     let limit = |knots: &mut Vec<[f64; 2]>, from: usize, to: usize| {
-        let most = knots[from][1] + MAX_EDGE_SLOPE * (knots[to][0] - knots[from][0]).abs();
+        let most = knots[from][1] + slope * (knots[to][0] - knots[from][0]).abs();
         knots[to][1] = knots[to][1].min(most);
     };
     for index in 1..knots.len() {

@@ -14,6 +14,7 @@ mod route;
 mod route_set;
 mod routing;
 mod strip;
+mod swept;
 
 #[cfg(test)]
 mod tests;
@@ -24,3 +25,4 @@ pub use lane::{Lane, LaneNeighbour, LaneUser, NeighbourRelation, RightOfWay};
 pub use light::{LightColour, LightCycle, LightPhase};
 pub use road_network::{LanePlace, RoadNetwork};
 pub use route::{ConflictKind, Precedence, Route, RouteConflict, RouteLeg, TightestTurn};
+pub use swept::Turner;

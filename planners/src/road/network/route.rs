@@ -34,6 +34,8 @@ pub struct Route {
     pub(super) number: Option<usize>,
     /// Where it meets the others of that set.
     pub(super) conflicts: Vec<RouteConflict>,
+    /// The route along the middle of its lanes; none where this is that route. A long body swings out of it.
+    pub(super) plain: Option<Arc<Route>>,
     /// The route as a straight road, if it is one.
     pub(super) straight: Option<Corridor>,
     /// Largest curvature of the centre line \[1/m\].
@@ -88,6 +90,7 @@ impl From<Corridor> for Route {
             own_lane: None,
             number: None,
             conflicts: Vec::new(),
+            plain: None,
             straight: Some(corridor),
             max_curvature_1pm: 0.0,
             bends: Vec::new(),
@@ -117,6 +120,7 @@ impl Route {
             own_lane: None,
             number: None,
             conflicts,
+            plain: None,
             straight: None,
             max_curvature_1pm,
             bends,
@@ -181,7 +185,10 @@ impl Route {
     /// [`RouteError::TooTight`] where the curve is tighter than the smallest turning radius of the vehicle \[m\].
     pub fn check_turns(&self, smallest_m: f64) -> Result<(), RouteError> {
         match self.tightest_turn() {
-            Some(TightestTurn { lane, along_m, curvature_1pm }) if curvature_1pm.abs() * smallest_m > 1.0 => {
+            // Whether a long body comes round is found out by driving it along its line.
+            Some(TightestTurn { lane, along_m, curvature_1pm })
+                if self.plain.is_none() && curvature_1pm.abs() * smallest_m > 1.0 =>
+            {
                 Err(RouteError::TooTight { lane, along_m, radius_m: 1.0 / curvature_1pm.abs(), smallest_m })
             }
             _ => Ok(()),

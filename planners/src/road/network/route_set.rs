@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use super::conflicts::conflicts;
+use super::conflicts::{Conflict, conflicts};
 use super::error::RouteError;
 use super::lane::RightOfWay;
 use super::road_network::{RoadNetwork, turn_rad};
@@ -15,6 +15,9 @@ const SAME_SIDE_RAD: f64 = 45.0 * PI / 180.0;
 
 /// A lane that turns by more than this to the left is a left turn \[rad\].
 const LEFT_TURN_RAD: f64 = 30.0 * PI / 180.0;
+
+/// A vehicle that swings out waits at the line of its lane, unless that is farther away than this many half widths of what it covers.
+const SWINGING_RATIO: f64 = 8.0;
 
 impl RoadNetwork {
     /// The routes along lists of lanes, each as by [`RoadNetwork::route`], with the places where they meet each other
@@ -41,8 +44,10 @@ impl Route {
         let mut numbers = Vec::with_capacity(routes.len());
         for mut route in routes {
             let lanes = |route: &Route| route.legs.iter().map(|leg| leg.lane.clone()).collect::<Vec<String>>();
-            let is_same =
-                |known: &Route| lanes(known) == lanes(&route) && known.right == route.right && known.left == route.left;
+            let is_same = |known: &Route| {
+                let has_same_edges = known.right == route.right && known.left == route.left;
+                lanes(known) == lanes(&route) && has_same_edges && known.centre == route.centre
+            };
             let number = distinct.iter().position(is_same);
             numbers.push(number.unwrap_or(distinct.len()));
             if number.is_none() {
@@ -54,8 +59,9 @@ impl Route {
         for (route, conflicts) in distinct.iter_mut().zip(known) {
             route.conflicts = conflicts;
             let (centre, half_width) = (route.centre.clone(), route.half_width.clone());
-            route.own_lane =
-                Some(Arc::new(Route::curved(centre, half_width.mirrored(), half_width.clone(), half_width)));
+            route.own_lane.get_or_insert_with(|| {
+                Arc::new(Route::curved(centre, half_width.mirrored(), half_width.clone(), half_width))
+            });
         }
         let routes: Vec<Arc<Route>> = distinct.into_iter().map(Arc::new).collect();
         numbers.into_iter().map(|number| Arc::clone(&routes[number])).collect()
@@ -87,11 +93,16 @@ fn with_all(own: &Route, all: &[Route]) -> Vec<RouteConflict> {
     let known = pairs.filter(|(_, _, conflict)| conflict.kind != ConflictKind::Diverging);
     known
         .map(|(with, other, conflict)| {
+            let swinging = swinging(own, other, &conflict);
             let kind = if is_head_on(own, other, &conflict.on_a) { ConflictKind::HeadOn } else { conflict.kind };
             let (mut approach, mut their_approach) =
                 (Approach::find(own, conflict.on_a), Approach::find(other, conflict.on_b));
             approach.wait_at_zebra(&their_approach, conflict.on_a);
             their_approach.wait_at_zebra(&approach, conflict.on_b);
+            if swinging.is_some() {
+                approach.wait_nearer(own, conflict.on_a);
+                their_approach.wait_nearer(other, conflict.on_b);
+            }
             let meeting = |route: &Route, partner: &Route, [from_m, to_m]: [f64; 2]| match kind {
                 ConflictKind::Crossing | ConflictKind::Diverging => 0.5 * (from_m + to_m),
                 // The lanes overlap before the centre lines meet.
@@ -107,10 +118,30 @@ fn with_all(own: &Route, all: &[Route]) -> Vec<RouteConflict> {
                 own_meeting_m: meeting(own, other, conflict.on_a),
                 their_meeting_m: meeting(other, own, conflict.on_b),
                 kind,
-                precedence: precedence(&approach, &their_approach, kind),
+                precedence: swinging.unwrap_or_else(|| precedence(&approach, &their_approach, kind)),
             }
         })
         .collect()
+}
+
+/// Who goes first where routes meet only because a long vehicle swings out of its lanes: the other one; `None` where their lanes meet.
+fn swinging(own: &Route, other: &Route, conflict: &Conflict) -> Option<Precedence> {
+    if own.plain.is_none() && other.plain.is_none() {
+        return None;
+    }
+    let [plain, their_plain] = [own, other].map(|route| route.plain.as_deref().unwrap_or(route));
+    let between = |route: &Route, plain: &Route, [from_m, to_m]: [f64; 2]| {
+        [from_m, to_m].map(|along_m| plain.along(route.centre.position(along_m, 0.0)))
+    };
+    let (on_a, on_b) = (between(own, plain, conflict.on_a), between(other, their_plain, conflict.on_b));
+    let touch = |one: [f64; 2], two: [f64; 2]| one[0] <= two[1] && two[0] <= one[1];
+    let is_of_lanes = conflicts(plain, their_plain).iter().any(|met| touch(met.on_a, on_a) && touch(met.on_b, on_b));
+    let swings = [own.plain.is_some(), other.plain.is_some()];
+    (!is_of_lanes).then_some(match swings {
+        [true, false] => Precedence::Other,
+        [false, true] => Precedence::Own,
+        _ => Precedence::ByArrival,
+    })
 }
 
 /// Whether the routes run against each other from one end of a conflict to the other.
@@ -159,6 +190,14 @@ impl Approach {
     /// Before a zebra crossing vehicles wait right there, unless the lane ends at a line of its own before it.
     fn wait_at_zebra(&mut self, other: &Approach, [from_m, _]: [f64; 2]) {
         if other.is_zebra && !self.is_zebra && self.sign == RightOfWay::Priority {
+            self.line_m = from_m;
+        }
+    }
+
+    /// Before what is met only in swinging out, vehicles wait no further back than is needed.
+    fn wait_nearer(&mut self, route: &Route, [from_m, _]: [f64; 2]) {
+        let is_on_first_lane = route.legs.first().is_none_or(|leg| from_m < leg.to_m);
+        if is_on_first_lane || from_m - self.line_m > SWINGING_RATIO * route.half_width.value(from_m) {
             self.line_m = from_m;
         }
     }

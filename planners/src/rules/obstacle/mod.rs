@@ -77,10 +77,6 @@ impl ObstacleMemory {
 
     /// What to do about the nearest obstacle on the way; none without one. To be called once a tick.
     pub(crate) fn judge(&mut self, scene: &Scene) -> Option<Manoeuvre> {
-        // Straight roads have no lanes that belong to others.
-        if !scene.ego.route.is_in_network() {
-            return None;
-        }
         self.note(scene);
         let found = self.nearest(scene);
         let Some(obstacle) = found else {
@@ -94,13 +90,16 @@ impl ObstacleMemory {
         let is_under_way = self.passing.as_ref().is_some_and(|passing| obstacle.along_m[0] < passing.until_m)
             || is_out && obstacle.is_beyond_braking(scene);
         let Some(obstacle) = obstacle.with_side(scene) else {
-            return Some(Manoeuvre::Wait(obstacle, None));
+            // A vehicle without room beside it is followed, however long it stands.
+            let is_followed = scene.knowledge.is_of_motion() && !obstacle.is_without_driver;
+            return (!is_followed).then_some(Manoeuvre::Wait(obstacle, None));
         };
         if !is_under_way && obstacle.is_too_near_to_swing_out(scene) {
             self.passing = None;
             return Some(Manoeuvre::Wait(obstacle, None));
         }
-        let until_m = room::end_of_row_m(scene, &obstacle);
+        let obstacle = room::with_row(scene, obstacle);
+        let until_m = obstacle.row_end_m;
         match room::in_the_way(scene, &obstacle, until_m, is_under_way) {
             None => {
                 self.passing = Some(Passing { name: obstacle.name.clone(), until_m });
@@ -132,7 +131,10 @@ impl ObstacleMemory {
         let reach_m = LOOK_AHEAD_S * ego.body.time_ratio() * wanted_mps.max(ego.state.speed_mps) + ego.body.front_m;
         let goal_m = ego.route.across(scene.goal.target.position());
         let here_m = ego.across_m();
-        let candidates = scene.others.iter().filter(|other| is_standing(other) && !self.is_queueing(scene, other));
+        // Straight roads have no lanes that belong to others: of what stands there, only what has no driver is passed by these rules.
+        let counts = |other: &&Agent| other.is_obstacle || ego.route.is_in_network();
+        let standing = scene.others.iter().filter(counts).filter(|other| is_standing(other));
+        let candidates = standing.filter(|other| !self.is_queueing(scene, other));
         let obstacles = candidates.filter_map(|other| {
             let at = ego.route.locate(other.state.position(), None);
             let [half_length_m, half_width_m] = other.half_extents_m(at.heading_rad);
@@ -150,7 +152,9 @@ impl ObstacleMemory {
                 along_m,
                 across_m: at.across_m,
                 pass_at_m: at.across_m,
+                row_end_m: along_m[1],
                 reach_m: reach,
+                is_without_driver: other.is_obstacle,
             };
             (is_ahead && (blocks(goal_m) || (blocks(here_m) && at.along_m > own_m))).then_some(found)
         });

@@ -74,6 +74,14 @@ impl Obstacle {
         side_m.clamp(0.0, SIDE_M * scene.ego.body.scale)
     }
 
+    /// Whether another vehicle is passed with it: it is the obstacle itself, or one of its row beside the way past it.
+    pub(crate) fn is_passed_with(&self, ego: &Agent, other: &Agent) -> bool {
+        let at = ego.route.locate(other.state.position(), None);
+        let is_in_row = (self.along_m[0]..self.row_end_m).contains(&at.along_m);
+        let is_beside = (at.across_m - self.pass_at_m).abs() >= 0.5 * (ego.body.width_m + other.body.width_m);
+        self.name == other.name || other.is_obstacle && is_in_row && is_beside
+    }
+
     /// How far the front of a driver comes who waits behind it, with room to swing out later; nearer for a driver who sees only late that
     /// it is an obstacle, and stops in comfort \[m\].
     pub(crate) fn line_m(&self, scene: &Scene) -> f64 {
@@ -139,13 +147,16 @@ impl Obstacle {
         let middle_m = 0.5 * (self.along_m[0] + self.along_m[1]);
         let centres = vec![route.position(middle_m, self.across_m); scene.horizon];
         let [length_m, width_m] = self.reach_m;
-        let ellipse = containing(length_m, width_m + KEPT_SIDE_SHARE * self.side_m(scene));
+        let usual = containing(length_m, width_m + KEPT_SIDE_SHARE * self.side_m(scene));
+        let is_in_gap = self.side_m(scene) < SIDE_M * scene.ego.body.scale;
+        let ellipse =
+            if is_in_gap { usual.fitting(length_m, width_m, (self.pass_at_m - self.across_m).abs()) } else { usual };
         KeepOut { vehicle: 0, ellipses: ellipses(ellipse, route, &centres), centres, penalty: Penalty::EXACT }
     }
 
     /// The lateral position at which a driver is who passes it, at an arc length \[m\]; `own_m` is where it is otherwise.
     pub(crate) fn lateral_m(&self, along_m: f64, own_m: f64, swing_m: f64) -> f64 {
-        let [from_m, to_m] = [self.along_m[0] - swing_m, self.along_m[1] + self.reach_m[0]];
+        let [from_m, to_m] = [self.along_m[0] - swing_m, self.row_end_m + self.reach_m[0]];
         if (from_m..to_m).contains(&along_m) { self.pass_at_m } else { own_m }
     }
 }

@@ -7,7 +7,7 @@
 
 use crate::trajectory::iterate::Iterate;
 use crate::trajectory::participant::Participant;
-use crate::trajectory::problem::Problem;
+use crate::trajectory::problem::{Problem, TURN_WEIGHT};
 use crate::trajectory::stage::{
     Costates, Hessian, Interval, RowBlock, StageQp, StageSolution, StateCost, TrajectoryRow, VehicleStages,
     fill_costates, kkt,
@@ -232,6 +232,21 @@ fn add_state_costs(
                 }
             }
             _ => {}
+        }
+    }
+    add_turns(&problem.participants[vehicle], stages);
+}
+
+/// The cost of steering faster than the wheels turn, `w (c − m)²` where a change `c` is beyond the most `m` of its sign. With the weight
+/// `r` of comfort, `r c² + w (c − m)²` is `(r + w) (c − w m/(r + w))²` and a constant.
+fn add_turns(participant: &Participant, stages: &mut VehicleStages) {
+    stages.turn_weights.clear();
+    for (k, [_, change_rad]) in stages.changes.iter_mut().enumerate().skip(stages.first) {
+        let excess_rad = participant.excess_turn_rad(k, *change_rad);
+        if excess_rad != 0.0 {
+            stages.turn_weights.resize(k, 0.0);
+            stages.turn_weights.push(TURN_WEIGHT);
+            *change_rad -= (*change_rad - excess_rad) * TURN_WEIGHT / (stages.change_weights[1] + TURN_WEIGHT);
         }
     }
 }

@@ -142,9 +142,9 @@ fn input_gradient(qp: &StageQp, solution: &StageSolution, vehicle: usize, k: usi
     std::array::from_fn(|axis| {
         let [lower, upper] = solution.bound_multipliers[vehicle][k][axis];
         let mut gradient = from_dynamics[axis] + upper - lower + stages.damping(qp.damping, axis) * inputs[k][axis];
-        gradient += 2.0 * stages.change_weights[axis] * stages.change(inputs, k, axis);
+        gradient += 2.0 * stages.change_weight(k, axis) * stages.change(inputs, k, axis);
         if k + 1 < qp.horizon {
-            gradient -= 2.0 * stages.change_weights[axis] * stages.change(inputs, k + 1, axis);
+            gradient -= 2.0 * stages.change_weight(k + 1, axis) * stages.change(inputs, k + 1, axis);
         }
         if axis == 1 {
             gradient += from_curvature;

@@ -52,7 +52,7 @@ impl StageQp {
             if k >= stages.first {
                 for axis in 0..2 {
                     let (old, new) = (stages.changes[k][axis], stages.change(inputs, k, axis));
-                    change += stages.change_weights[axis] * (new * new - old * old);
+                    change += stages.change_weight(k, axis) * (new * new - old * old);
                 }
             }
             for axis in 0..2 {

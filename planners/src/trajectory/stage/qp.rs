@@ -7,7 +7,7 @@
 //! d_{k+1} = A_k d_k + B_k w_k                                       k = 0…N−1
 //! minimise  Σ_k  g_k·d_{k+1} + ½ d_{k+1}ᵀ H_k d_{k+1}                tracking, x_{k+1}
 //!              + ½ (d_k, w_k)ᵀ C_k (d_k, w_k)                        curvature of the dynamics
-//!              + Σ_i r_i (Δū_{k,i} + w_{k,i} − w_{k−1,i})²           comfort, w_{first−1} = 0
+//!              + Σ_i r_{k,i} (Δū_{k,i} + w_{k,i} − w_{k−1,i})²       comfort and steering rate, w_{first−1} = 0
 //!              + ½ μ Σ_i r_i w_{k,i}²                                damping, in the comfort's own scale
 //!              + Σ_rows  linear·s + quadratic·s² + ½ pᵀ K p          soft rows, p the position they concern
 //! such that  c + ∇c·p + s ≥ 0,  s ≥ 0                                rows
@@ -58,7 +58,9 @@ pub struct VehicleStages {
     pub curvatures: Vec<DynamicsCurvature>,
     /// Weights `r` of the squared changes of `(a, δ)`.
     pub change_weights: [f64; 2],
-    /// Changes of input `Δū_k` at the iterate; `N` long.
+    /// What is added to the weight of the change of `δ` at each stage, where it is too fast; `N` long, or empty.
+    pub turn_weights: Vec<f64>,
+    /// Changes of input `Δū_k` at the iterate, less the part of a change that is free where it is too fast; `N` long.
     pub changes: Vec<[f64; 2]>,
     /// Bounds of the input deviations `w_k = (δa, δδ)`; `N` long.
     pub input_boxes: Vec<[Interval; 2]>,
@@ -171,6 +173,13 @@ impl VehicleStages {
     #[inline(always)]
     pub(crate) fn damping(&self, damping: f64, axis: usize) -> f64 {
         damping * self.change_weights[axis].max(1e-6)
+    }
+
+    /// The weight of the squared change of one input at a stage.
+    #[inline(always)]
+    pub(crate) fn change_weight(&self, k: usize, axis: usize) -> f64 {
+        let turn = if axis == 1 { self.turn_weights.get(k).copied() } else { None };
+        self.change_weights[axis] + turn.unwrap_or(0.0)
     }
 
     /// `Δū_k + w_k − w_{k−1}` of one input.

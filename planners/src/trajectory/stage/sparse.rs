@@ -194,7 +194,7 @@ impl Layout {
             return;
         }
         for axis in 0..2 {
-            let (weight, now) = (2.0 * stages.change_weights[axis], self.input(vehicle, k, axis));
+            let (weight, now) = (2.0 * stages.change_weight(k, axis), self.input(vehicle, k, axis));
             program.quadratic(now, now, weight + stages.damping(qp.damping, axis));
             program.linear(now, weight * stages.changes[k][axis]);
             if k > stages.first {

@@ -82,6 +82,7 @@ pub(super) fn of_problem(problem: &PlanningProblem<'_>, step_s: f64, lanes: &Lan
         };
         notes.one(["goal without a lane", "goals without a lane"], fate);
     }
+    let is_cut_short = !reaches_goal && is_cut_short(&route, lanes, notes);
     if moved_m > NOTED_MOVE_M {
         notes.one(["start of the ego", "starts of the ego"], "moved, so that its body is on its lane");
     }
@@ -91,10 +92,21 @@ pub(super) fn of_problem(problem: &PlanningProblem<'_>, step_s: f64, lanes: &Lan
     note_goals(problem, notes);
     let goal = GoalConfig { speed_mps: Some(wanted_mps), ..GoalConfig::default() };
     let mut ego = Ego::new(state, route, goal);
+    ego.config.stops_at_end = is_cut_short.then_some(true);
     let stated =
         problem.acceleration_mps2.map(|stated| rounded(stated.clamp(-MAX_ACCELERATION_MPS2, MAX_ACCELERATION_MPS2), 3));
     ego.config.start.acceleration_mps2 = stated.filter(|stated| *stated != 0.0);
     Some(ego)
+}
+
+/// Whether a route ends although the map goes on, which is noted.
+fn is_cut_short(route: &[String], lanes: &Lanes, notes: &mut Notes) -> bool {
+    let is_cut_short = route.last().is_some_and(|last| lanes.followed.contains(last));
+    if is_cut_short {
+        let fate = "ends where the next lane turns too tightly or begins in another direction: the ego stops there";
+        notes.one(["route without a goal", "routes without a goal"], fate);
+    }
+    is_cut_short
 }
 
 /// The route of a car from one of some lanes to one of the goals, and whether one exists; straight on otherwise.
@@ -143,7 +155,9 @@ pub(super) fn on_longest_lane(lanes: &Lanes, notes: &mut Notes) -> Option<Ego> {
     });
     let OnLanes { state, lanes: route, .. } = found?;
     notes.one(["map without vehicles", "maps without vehicles"], "the ego starts where the longest lane begins");
-    let config = VehicleConfig { class: Some(VehicleClass::Car), route, ..VehicleConfig::new(EGO, in_world(&state)) };
+    let stops_at_end = is_cut_short(&route, lanes, notes).then_some(true);
+    let class = Some(VehicleClass::Car);
+    let config = VehicleConfig { class, route, stops_at_end, ..VehicleConfig::new(EGO, in_world(&state)) };
     Some(Ego { config, state, body })
 }
 

@@ -29,6 +29,8 @@ pub(super) struct Lanes {
     pub network: RoadNetwork,
     /// The name of the lane of each lanelet, by its id.
     pub names: BTreeMap<String, String>,
+    /// The lanes that others follow on the map, also where no vehicle can drive on to them.
+    pub followed: BTreeSet<String>,
 }
 
 impl Lanes {
@@ -39,6 +41,8 @@ impl Lanes {
     pub(super) fn of(scenario: &CommonRoad<'_>, root: &Place, notes: &mut Notes) -> Result<Lanes, Fault> {
         let mut draft = Draft::of(scenario, notes)?;
         draft.connect(notes);
+        let followed = draft.configs.iter().filter(|config| !config.successors.is_empty());
+        let followed = followed.map(|config| config.name.clone()).collect();
         draft.close_gaps(notes);
         let mut lanes = draft.checked_alone(notes)?;
         draft.put_beside(notes);
@@ -61,7 +65,7 @@ impl Lanes {
             network = RoadNetwork::new(lanes.clone()).map_err(refused)?;
         }
         let places = draft.lanelets.iter().map(|lanelet| lanelet.element.place()).collect();
-        Ok(Lanes { configs: draft.configs, places, network, names: draft.names })
+        Ok(Lanes { configs: draft.configs, places, network, names: draft.names, followed })
     }
 }
 

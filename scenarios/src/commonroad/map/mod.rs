@@ -29,6 +29,7 @@ pub(super) use ego::begin;
 use lanes::Lanes;
 use notes::NOT_YET;
 pub(super) use notes::Notes;
+use places::OnLanes;
 use vehicles::{Follower, followers, in_world};
 
 /// The most vehicles of a scenario.
@@ -87,6 +88,10 @@ pub(super) fn mapped(
         // to the end of its route.
         config.leaves_at_end = (!config.route.is_empty()).then_some(true);
         config.leaves_s = follower.leaves_s(duration_s).filter(|_| config.route.is_empty());
+        // Without an ego, another driver may take the place of the first record: it needs a route.
+        if ego.is_none() && vehicles.is_empty() && follower.is_car && config.route.is_empty() {
+            config.route = on_its_way(&follower, &lanes).map(|place| place.lanes).unwrap_or_default();
+        }
         vehicles.push((config, Some(follower.place)));
     }
     let problem = scenario.problems.first().map(|problem| problem.element.place());
@@ -199,15 +204,10 @@ fn driven(follower: &Follower, lanes: &Lanes, options: &ImportOptions, notes: &m
     };
     let replacement = options.replacement(&follower.id, &config.name);
     let Some(driver) = replacement.filter(|_| follower.is_car) else { return recorded(config) };
-    let network = &lanes.network;
-    let place = places::lanes_at(network, &follower.start).into_iter().find_map(|lane| {
-        let way = places::along_record(network, &follower.rows, lane);
-        places::on(network, way, &follower.start, &follower.body)
-    });
-    match place {
+    match on_its_way(follower, lanes) {
         Some(place) => {
-            let limit_mps =
-                place.lanes.first().and_then(|lane| network.lane(lane)).and_then(|lane| lane.speed_limit_mps);
+            let first = place.lanes.first().and_then(|lane| lanes.network.lane(lane));
+            let limit_mps = first.and_then(|lane| lane.speed_limit_mps);
             let goal = GoalConfig { speed_mps: Some(follower.wanted_mps(limit_mps)), ..GoalConfig::default() };
             VehicleConfig { start: in_world(&place.state), route: place.lanes, goal, driver: Some(driver), ..config }
         }
@@ -216,6 +216,15 @@ fn driven(follower: &Follower, lanes: &Lanes, options: &ImportOptions, notes: &m
             recorded(config)
         }
     }
+}
+
+/// A vehicle at the start of its record, with the lanes that the record follows; `None` beside the lanes.
+fn on_its_way(follower: &Follower, lanes: &Lanes) -> Option<OnLanes> {
+    let network = &lanes.network;
+    places::lanes_at(network, &follower.start).into_iter().find_map(|lane| {
+        let way = places::along_record(network, &follower.rows, lane);
+        places::on(network, way, &follower.start, &follower.body)
+    })
 }
 
 /// The word for drivers that follow a record.

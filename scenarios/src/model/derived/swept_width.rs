@@ -4,15 +4,25 @@
 //! its body. With the middle of the rear axle on a circle of radius `R`, the inner side of a body of width `w` reaches in to
 //! `R − w/2`, and its outer front corner, `l` ahead of the rear axle, out to `√((R + w/2)² + l²)`.
 
+use interplay_planners::road::network::{RoadNetwork, Turner};
 use interplay_planners::{Body, Route};
 
 use crate::model::scenario::{Scenario, Vehicle};
+use crate::roads::Road;
 use crate::text::error::quoted;
 
 /// The number of positions of a route that are checked per wheelbase.
 const PLACES_PER_WHEELBASE: f64 = 2.0;
 /// The most positions of a route that are checked.
 const MAX_PLACES: f64 = 10_000.0;
+
+/// A place is in a turn if the road turns by more than this within this distance before and behind it \[m\].
+const TURN_M: f64 = 8.0;
+const LEAST_TURN_COS: f64 = 0.995;
+/// A body is off the road if a corner is this far beyond an edge, in its widths: the bound of the measure `leaves_road`.
+const OFF_ROAD_WIDTHS: f64 = 0.03;
+/// The largest radius that is tried, as a multiple of the present one.
+const MOST_TIMES: f64 = 4.0;
 
 /// The swept width of a body in the tightest turn of its route.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,20 +37,78 @@ struct TightTurn {
     swept_m: f64,
 }
 
-/// Whether a body sweeps more than the width of the road in a turn, so that it cannot pass without leaving the road.
+/// Whether a body cannot come round a turn without leaving the road: on a network driven along its route by the bicycle model, elsewhere
+/// because it sweeps more than the width of the road.
 pub(crate) fn remark(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> {
-    let turn = tightest(&vehicle.body, &vehicle.route, vehicle.route.along(vehicle.start.position()))?;
+    let turn = tightest(&vehicle.body, &vehicle.route, vehicle.route.along(vehicle.start.position()));
+    if scenario.network.is_some() {
+        let may_leave = turn.is_some() || vehicle.route.is_swept();
+        return may_leave.then(|| tight_turn(scenario, vehicle)).flatten();
+    }
+    let turn = turn?;
     let [swept_m, road_m, radius_m] = [turn.swept_m, turn.road_m, turn.inner_m + 0.5 * turn.road_m].map(to_tenths);
-    let place = match (scenario.network.is_some(), vehicle.route.leg(turn.along_m)) {
-        (true, Some(leg)) => format!("the turn of lane {}", quoted(&leg.lane)),
-        _ => format!("the turn after {} m", to_tenths(turn.along_m)),
-    };
     let message = format!(
-        "vehicle {} covers a width of {swept_m} m in {place}, which has {road_m} m and a radius of {radius_m} m",
-        quoted(&vehicle.name)
+        "vehicle {} covers a width of {swept_m} m in the turn after {} m, which has {road_m} m and a radius of {radius_m} m",
+        quoted(&vehicle.name),
+        to_tenths(turn.along_m)
     );
     let help = "it may stop there, or leave the road; a larger radius works, a wider lane, or the `class` of a shorter vehicle";
     Some((message, help.to_owned()))
+}
+
+/// Whether a turn of a network is too tight for a body, and the smallest radius that works.
+fn tight_turn(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> {
+    let Vehicle { name, body, limits, route, .. } = vehicle;
+    let turner = Turner { body: *body, steering_max_rad: limits.steering_max_rad };
+    let (along_m, beyond_m) = route.leaves_road_m(&turner);
+    let heading_rad = |ahead_m: f64| route.heading_at(route.position(along_m + ahead_m, 0.0));
+    if libm::cos(heading_rad(TURN_M) - heading_rad(-TURN_M)) > LEAST_TURN_COS {
+        // A narrow place is not a turn.
+        return None;
+    }
+    if beyond_m <= OFF_ROAD_WIDTHS * body.width_m {
+        return None;
+    }
+    let lane = route.leg(along_m).map(|leg| quoted(&leg.lane)).unwrap_or_default();
+    let message = format!(
+        "the turn of lane {lane} is too tight for the {} m of vehicle {}: it leaves the road by {beyond_m:.1} m",
+        to_tenths(body.front_m + body.rear_m),
+        quoted(name)
+    );
+    let else_works = "a wider lane may work, or the `class` of a shorter vehicle";
+    let help = smallest_radius(&scenario.road, vehicle, &turner).map_or_else(
+        || else_works.to_owned(),
+        |(key, radius_m)| format!("`road.{key} = {radius_m}` works; {else_works}"),
+    );
+    Some((message, help))
+}
+
+/// The key of the radius of a junction, and its smallest value in tenths of a metre with which a body drives along the route of a vehicle
+/// within the road; `None` where no key states it, or none up to [`MOST_TIMES`] the present one works.
+fn smallest_radius(road: &Road, vehicle: &Vehicle, turner: &Turner) -> Option<(&'static str, f64)> {
+    let lanes: Vec<&str> = vehicle.route.legs.iter().map(|leg| leg.lane.as_str()).collect();
+    let mut road = road.clone();
+    let (key, now_m) = road.turn_radius().map(|(key, radius_m)| (key, *radius_m))?;
+    let mut fits = |tenths: u32| {
+        *road.turn_radius()?.1 = f64::from(tenths) / 10.0;
+        let network = RoadNetwork::new(road.network_lanes()?.ok()?).ok()?;
+        let route = network.route_of_body(network.route(&lanes).ok()?, turner);
+        Some(route.leaves_road_m(turner).1 <= OFF_ROAD_WIDTHS * turner.body.width_m)
+    };
+    let mut does_not = (10.0 * now_m) as u32;
+    let mut works = (MOST_TIMES * 10.0 * now_m) as u32;
+    if !fits(works)? {
+        return None;
+    }
+    while works > does_not + 1 {
+        let middle = does_not.midpoint(works);
+        if fits(middle) == Some(true) {
+            works = middle;
+        } else {
+            does_not = middle;
+        }
+    }
+    Some((key, f64::from(works) / 10.0))
 }
 
 /// The turn in which a body lacks the most width, from an arc length of a route on; `None` if it fits everywhere.

@@ -12,7 +12,7 @@ use crate::format::read::degrees;
 use crate::format::read::tree::{TomlNode, TomlValue};
 use crate::model::classes::VehicleClass;
 use crate::model::derived::narrowest_lane::{NarrowestLane, narrowest_lane};
-use crate::model::derived::swept_width;
+use crate::model::derived::{script_contact, swept_width};
 use crate::model::remark::{ScenarioRemark, ScenarioRemarks};
 use crate::model::scenario::{Scenario, Vehicle};
 use crate::text::error::{Fault, quoted};
@@ -62,6 +62,7 @@ pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) 
         faults.extend(off_lane(scenario, vehicle).map(|said| remark("start", "off its lane", said)));
         faults.extend(askew(vehicle).map(|said| remark("start", "at an angle", said)));
         faults.extend(swept_width::remark(scenario, vehicle).map(|said| remark("class", "needs more room", said)));
+        faults.extend(script_contact::remark(scenario, vehicle).map(|said| remark("driver", "leads through it", said)));
         faults.extend(short_horizon(scenario, vehicle).map(|said| remark("goal.speed_mps", "cannot stop", said)));
     }
     ScenarioRemarks(faults.into_iter().map(ScenarioRemark).collect())

@@ -69,8 +69,12 @@ impl KnownNetwork {
         if self.network.has_restricted_lanes() {
             return Route::set_of(routes.into_iter().map(Arc::unwrap_or_clone).collect());
         }
-        let lanes = |route: &Arc<Route>| route.legs.iter().map(|leg| leg.lane.clone()).collect::<Vec<String>>();
-        let key = routes.iter().map(lanes).collect();
+        let words = |route: &Arc<Route>| {
+            let lanes = route.legs.iter().map(|leg| leg.lane.clone());
+            // Bodies that swing out have lines of their own along the same lanes.
+            lanes.chain(route.is_swept().then(|| format!("{:?}", route.end_m()))).collect::<Vec<String>>()
+        };
+        let key = routes.iter().map(words).collect();
         let compute = || Ok::<_, ()>(Route::set_of(routes.into_iter().map(Arc::unwrap_or_clone).collect()));
         self.sets.get(key, compute).map(|set| Vec::clone(&set)).unwrap_or_default()
     }

@@ -17,6 +17,9 @@ use crate::roads::{Branch, Road};
 use crate::text::error::{Fault, quoted};
 use crate::text::readable::readable;
 
+/// How long before the time of a row an obstacle is there, still with the speed at which it came \[s\].
+const ARRIVING_S: f64 = 1e-6;
+
 /// Ratio of lengths of real cars to those of 1/10 scale.
 const REAL_SCALE: f64 = interplay_planners::Body::REAL_SCALE;
 
@@ -102,12 +105,20 @@ impl Written<'_> {
         }
         let speed_mps = |row: usize| {
             let [from, to] = [rows[row], *rows.get(row + 1)?];
-            Some(libm::hypot(to[1] - from[1], to[2] - from[2]) / (to[0] - from[0]))
+            let (sin, cos) = libm::sincos(from[3]);
+            let way_m = [to[1] - from[1], to[2] - from[2]];
+            // Negative where it goes backwards.
+            let speed_mps = libm::hypot(way_m[0], way_m[1]) / (to[0] - from[0]);
+            Some(speed_mps.copysign(if way_m[0] * cos + way_m[1] * sin < 0.0 { -1.0 } else { 1.0 }))
         };
-        let point = |(row, [time_s, x_m, y_m, heading_rad]): (usize, &[f64; 4])| {
-            [*time_s, *x_m, *y_m, *heading_rad, speed_mps(row).unwrap_or(0.0)]
-        };
-        let points: Vec<[f64; 5]> = rows.iter().enumerate().map(point).collect();
+        // It keeps its speed until the next row, so each row but the first has a moment just before it.
+        let points = rows.iter().enumerate().flat_map(|(row, [time_s, x_m, y_m, heading_rad])| {
+            let arrives = row.checked_sub(1).and_then(speed_mps);
+            let arrives = arrives.map(|speed_mps| [*time_s - ARRIVING_S, *x_m, *y_m, *heading_rad, speed_mps]);
+            let leaves = [*time_s, *x_m, *y_m, *heading_rad, speed_mps(row).unwrap_or(0.0)];
+            arrives.into_iter().chain([leaves])
+        });
+        let points: Vec<[f64; 5]> = points.collect();
         let record = recorded::Record::new(&points).map_err(|_| {
             let message = format!("the timetable of {} has a number that is not finite", self.shown());
             self.fault("timetable", "not finite", message)

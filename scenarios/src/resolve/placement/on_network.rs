@@ -1,10 +1,11 @@
 //! Vehicles on networks of lanes: their starts and their routes.
 
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use interplay_common::spelling::{listed, suggestion};
-use interplay_planners::road::network::{Lane, LaneUser, RoadNetwork, RouteError};
-use interplay_planners::{Route, State};
+use interplay_planners::road::network::{Lane, LaneUser, RoadNetwork, RouteError, Turner};
+use interplay_planners::{Body, Limits, Route, State};
 
 use super::known_roads::KnownNetwork;
 use super::written::{Start, VehicleAsWritten, next_to};
@@ -159,7 +160,20 @@ impl NetworkVehicle<'_> {
         let goal = self.written.stated.goal.lane.as_ref().map(|goal| format!("{goal:?}")).unwrap_or_default();
         let words =
             [&[lane.name.clone(), goal, format!("{:?}", self.user)], self.written.stated.route.as_slice()].concat();
-        self.known.route(words, || self.new_route(lane))
+        let plain = self.known.route(words.clone(), || self.new_route(lane))?;
+        let Some(turner) = self.turner() else { return Ok(plain) };
+        // A long body swings out in tight turns.
+        let words = [words, vec![format!("{turner:?}")]].concat();
+        self.known.route(words, || Ok(self.known.network.route_of_body(Route::clone(&plain), &turner)))
+    }
+
+    /// What of the vehicle decides how it comes round a turn; `None` where that is invalid, which later checks refuse.
+    fn turner(&self) -> Option<Turner> {
+        let Limits { steering_max_rad, .. } = self.written.stated.limits.clone()?.settings().ok()?;
+        let body: Body = self.written.stated.body.clone()?.settings().ok()?;
+        let is_sound = [body.front_m, body.rear_m, body.width_m, body.front_axle_m, body.rear_axle_m, steering_max_rad];
+        let is_sound = is_sound.iter().all(|size| size.is_finite() && *size > 0.0);
+        (is_sound && steering_max_rad < FRAC_PI_2).then_some(Turner { body, steering_max_rad })
     }
 
     fn new_route(&self, lane: &Lane) -> Result<Route, Fault> {

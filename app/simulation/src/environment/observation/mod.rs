@@ -51,7 +51,7 @@ impl AgentView {
     }
 
     /// The fault of the settings, if there is one.
-    pub(super) fn fault(&self) -> Option<String> {
+    pub fn fault(&self) -> Option<String> {
         match self {
             AgentView::OccupancyGrid(view) => view.fault(),
             AgentView::Kinematics(Kinematics { count, .. })

@@ -6,6 +6,7 @@ use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
 
 use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
 use crate::measure::values::Measured;
+use crate::state::frame::Frame;
 
 /// Maximum distance of a leader, for a real car \[m\].
 const FOLLOWED_M: f64 = 90.0;
@@ -59,7 +60,7 @@ impl Measurement for TimeGaps {
     fn observe(&mut self, tick: &ObservedTick<'_>) {
         let scale = tick.end.vehicles[self.vehicle].body.real_ratio();
         self.ratio = scale.sqrt();
-        self.gaps_s.extend(time_gap_s(tick, self.vehicle, scale).map(|gap_s| gap_s / scale.sqrt()));
+        self.gaps_s.extend(time_gap_s(tick.frame, &tick.end, self.vehicle).map(|gap_s| gap_s / scale.sqrt()));
     }
 
     fn measured(&self) -> Measured {
@@ -82,15 +83,15 @@ fn median(sorted_s: &[f64], ratio: f64) -> f64 {
 }
 
 /// The gap to the nearest vehicle ahead in the same lane and direction, over the speed \[s\]; none without a leader, or at low speed.
-fn time_gap_s(tick: &ObservedTick<'_>, vehicle: usize, scale: f64) -> Option<f64> {
-    let (stated, states) = (&tick.end.vehicles[vehicle], tick.end.states);
-    let (own, own_m) = (&states[vehicle], tick.end.along_m[vehicle]);
+pub(crate) fn time_gap_s(frame: &Frame, end: &ObservedMoment<'_>, vehicle: usize) -> Option<f64> {
+    let (stated, states) = (&end.vehicles[vehicle], end.states);
+    let (own, own_m, scale) = (&states[vehicle], end.along_m[vehicle], stated.body.real_ratio());
     if own.speed_mps < SLOWEST_MPS * scale.sqrt() {
         return None;
     }
     let own_across_m = stated.route.across(own.position());
-    let others = tick.end.vehicles.iter().zip(states).enumerate();
-    let others = others.filter(|(index, _)| *index != vehicle && !tick.frame.vehicles[*index].is_absent);
+    let others = end.vehicles.iter().zip(states).enumerate();
+    let others = others.filter(|(index, _)| *index != vehicle && !frame.vehicles[*index].is_absent);
     // The distance along the road is never much shorter than the straight-line distance.
     let is_near = |body: &Body, state: &State| {
         let [x_m, y_m] = [state.x_m - own.x_m, state.y_m - own.y_m];

@@ -88,7 +88,7 @@ impl<const W: usize> Memory<W> {
                 for axis in 0..2 {
                     let before = if k > stages.first { inputs[at - vehicles][axis] } else { 0.0 };
                     let change = stages.changes[k][axis] + inputs[at][axis] - before;
-                    let pull = 2.0 * stages.change_weights[axis] * change;
+                    let pull = 2.0 * stages.change_weight(k, axis) * change;
                     self.cost_gradient.inputs[at][axis] += pull + stages.damping(qp.damping, axis) * inputs[at][axis];
                     if k > stages.first {
                         self.cost_gradient.inputs[at - vehicles][axis] -= pull;

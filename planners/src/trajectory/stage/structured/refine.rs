@@ -99,7 +99,7 @@ fn add_product(
             let at = k * vehicles + i;
             for axis in 0..2 {
                 let before = if k > stages.first { step.inputs[at - vehicles][axis] } else { 0.0 };
-                let pull = 2.0 * stages.change_weights[axis] * (step.inputs[at][axis] - before);
+                let pull = 2.0 * stages.change_weight(k, axis) * (step.inputs[at][axis] - before);
                 gradient.inputs[at][axis] += pull;
                 if k > stages.first {
                     gradient.inputs[at - vehicles][axis] -= pull;

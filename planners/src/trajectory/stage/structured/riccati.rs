@@ -188,7 +188,7 @@ impl<const W: usize, const Z: usize> Riccati<W, Z> {
             }
             let c = &stages.curvatures[k];
             for axis in 0..2 {
-                let comfort = 2.0 * stages.change_weights[axis];
+                let comfort = 2.0 * stages.change_weight(k, axis);
                 f.ww[w + axis][w + axis] += comfort + own.input[axis];
                 if k > stages.first {
                     f.wz[w + axis][z + 4 + axis] -= comfort;

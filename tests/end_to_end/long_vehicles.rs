@@ -1,0 +1,132 @@
+//! Lorries and buses in turns, vehicles on ramps, scripts that lead through obstacles.
+
+use interplay_scenarios::{Override, Scenario, from_text};
+use rayon::prelude::*;
+
+use crate::film::{Film, film};
+
+/// A vehicle is off the road from 3 % of its width on: 8 cm of a lorry.
+const OFF_ROAD_M: f64 = 0.08;
+
+fn scenario(text: &str) -> Scenario {
+    from_text("long.toml", text, &[]).unwrap_or_else(|error| panic!("{error}: {:?}", error.faults()))
+}
+
+/// A vehicle that turns alone: road, lane of the start, lane of the goal, class and driver.
+fn turning(road: &str, [from, to]: [&str; 2], class: &str, driver: &str) -> String {
+    format!(
+        "title = \"A turn\"\nshows = \"A long vehicle turns\"\nduration_s = 30.0\nroad = {road}\n[[vehicle]]\nname = \"ego\"\nclass = \
+         \"{class}\"\nstart = {{ lane = \"{from}\", along_m = 45.0, speed_mps = 8.0 }}\ngoal = {{ lane = \"{to}\", speed_mps = 10.0 }}\n\
+         driver = {{ kind = \"{driver}\" }}\n"
+    )
+}
+
+/// By how much a vehicle left the road at most \[m\].
+fn off_road_m(film: &Film, name: &str) -> f64 {
+    let vehicle = film.report.vehicles.iter().find(|vehicle| vehicle.name == name);
+    vehicle.and_then(|vehicle| vehicle.metrics.number("off_road_m")).expect("it was measured")
+}
+
+fn remarks(scenario: &Scenario) -> String {
+    scenario.remarks.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+}
+
+/// Alone, at both radii, they come round within the road.
+#[test]
+fn lorries_and_buses_come_round_junctions_and_rings() {
+    let turns = [["west-in", "south-out"], ["east-in", "south-out"], ["south-in", "west-out"]];
+    let roads = ["t-junction", "crossing", "all-way-stop"].iter().flat_map(|kind| {
+        let at = |radius: &&str| format!("{{ kind = \"{kind}\", turn_radius_m = {radius} }}");
+        ["9.0", "12.0"].iter().map(at).collect::<Vec<_>>()
+    });
+    let mut cases: Vec<(String, [&str; 2], &str, &str)> = Vec::new();
+    for (number, road) in roads.enumerate() {
+        for (place, turn) in turns.into_iter().enumerate() {
+            let class = ["truck", "bus"][(number + place) % 2];
+            // Of people, every third.
+            let drivers: &[&str] = if (number + place) % 3 == 0 { &["idm", "human"] } else { &["idm"] };
+            cases.extend(drivers.iter().map(|driver| (road.clone(), turn, class, *driver)));
+        }
+    }
+    for (class, driver) in [("truck", "idm"), ("bus", "human")] {
+        let ring = "{ kind = \"roundabout\", radius_m = 20.0, lane_count = 2 }".to_owned();
+        cases.push((ring, ["west-in-0", "east-out-0"], class, driver));
+    }
+    let wrong: Vec<String> = cases
+        .par_iter()
+        .filter_map(|(road, turn, class, driver)| {
+            let film = film("turn", scenario(&turning(road, *turn, class, driver)));
+            let (off_m, speed_mps) = (off_road_m(&film, "ego"), film.report.vehicles[0].last.speed_mps);
+            let is_round = film.report.vehicles[0].completed_s.is_some();
+            (!is_round || off_m > OFF_ROAD_M).then(|| {
+                format!("{road} {turn:?} {class} {driver}: {off_m} m off the road, round: {is_round}, {speed_mps} m/s")
+            })
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// `check` names a radius with which the remark goes, and with a smaller one it stays.
+#[test]
+fn the_smallest_radius_that_is_named_works() {
+    let road = |radius_m: f64| format!("{{ kind = \"t-junction\", turn_radius_m = {radius_m:.1} }}");
+    let said = |radius_m: f64| remarks(&scenario(&turning(&road(radius_m), ["east-in", "south-out"], "bus", "human")));
+    let tight = said(7.0);
+    assert!(tight.contains("is too tight for the 12.1 m of vehicle `ego`"), "{tight}");
+    let named = tight.split("road.turn_radius_m = ").nth(1).and_then(|rest| rest.split('`').next());
+    let named_m: f64 = named.and_then(|radius_m| radius_m.parse().ok()).unwrap_or_else(|| panic!("{tight}"));
+    assert!(!said(named_m).contains("too tight"), "{named_m} m: {}", said(named_m));
+    assert!(said(named_m - 0.3).contains("too tight"), "{named_m} m is not the smallest");
+}
+
+/// A lorry that swings over the lane of a car waits until it is gone, and comes round.
+#[test]
+fn a_lorry_swings_over_the_oncoming_lane_while_it_is_free() {
+    let road = "{ kind = \"t-junction\", turn_radius_m = 9.0 }";
+    let car = "[[vehicle]]\nname = \"car\"\nclass = \"car\"\nstart = { lane = \"south-in\", along_m = 55.0, speed_mps = 8.0 }\ngoal = { \
+               lane = \"west-out\", speed_mps = 10.0 }\n";
+    let text = turning(road, ["west-in", "south-out"], "truck", "human") + car;
+    let film = film("swing", scenario(&text));
+    assert!(film.report.collisions.is_empty(), "{:?}", film.report.collisions);
+    assert!(film.report.vehicles.iter().all(|vehicle| vehicle.completed_s.is_some()), "both get on");
+}
+
+/// Cars from a ramp fall in between those on the main road without standing, and without contact.
+#[test]
+fn no_vehicle_stands_at_the_end_of_a_ramp() {
+    let flow = |name: &str, per_h: u32, from: &str, speed_mps: f64, to: &str| {
+        format!(
+            "[[flow]]\nname = \"{name}\"\nvehicles_per_h = {per_h}\nfrom = {from}\nalong_m = 5.0\nspeed_mps = {speed_mps}\n{to}\
+             mix = [{{ share = 1.0, vehicle = {{ driver = {{ kind = \"idm\" }} }} }}]\n"
+        )
+    };
+    let text = "title = \"A ramp\"\nshows = \"Two flows merge\"\nduration_s = 40.0\nroad = { kind = \"on-ramp\" }\ndefaults = { class = \
+                \"car\" }\n"
+        .to_owned()
+        + &flow("main", 1500, "[\"main-0\", \"main-1\"]", 25.0, "")
+        + &flow("ramp", 700, "[\"ramp\"]", 15.0, "to = [{ lane = \"main-0\", share = 1.0 }]\n");
+    let changes = [Override::Set("budget.plans=1000000".to_owned())];
+    let film = film("ramp", from_text("ramp.toml", &text, &changes).unwrap_or_else(|error| panic!("{error}")));
+    assert!(film.report.collisions.is_empty(), "{:?}", film.report.collisions);
+    for vehicle in &film.report.vehicles {
+        let slowest_mps = vehicle.metrics.number("min_speed_mps").unwrap_or(25.0);
+        assert!(slowest_mps > 5.0, "{}: {slowest_mps} m/s", vehicle.name);
+    }
+}
+
+#[test]
+fn a_script_that_leads_through_an_obstacle_is_remarked() {
+    let street = |script: &str| {
+        scenario(&format!(
+            "title = \"A street\"\nshows = \"A script\"\nduration_s = 20.0\ndefaults = {{ class = \"car\" }}\nroad = {{ kind = \
+             \"two-way\", length_m = 200.0 }}\n[[vehicle]]\nname = \"van\"\nstart = {{ lane = \"east\", along_m = 10.0, speed_mps = 8.0 \
+             }}\ndriver = {{ kind = \"scripted\", script = [{script}] }}\n[[obstacle]]\nname = \"parked\"\nkind = \"parked-car\"\nlane = \
+             \"east\"\nalong_m = 80.0\n"
+        ))
+    };
+    let through = remarks(&street("{ from_s = 1.0, speed_mps = 8.0 }"));
+    assert!(through.contains("the script of `van` leads through `parked`"), "{through}");
+    for script in ["{ from_s = 2.0, lateral_m = 3.5 }", "{ from_s = 3.0, speed_mps = 0.0 }"] {
+        assert!(!remarks(&street(script)).contains("leads through"), "{script}");
+    }
+}
