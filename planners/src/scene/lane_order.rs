@@ -1,4 +1,4 @@
-//! The vehicles of straight roads by lanes, from rear to front, so that the vehicle ahead is found however far away it is.
+//! The vehicles of a straight road by lanes, from rear to front, so that the vehicle ahead is found however far away it is.
 //!
 //! A road is cut lengthwise into bands, and each band lists the vehicles whose bodies reach into it by their arc length. A look into a lane
 //! is a binary search in each of its bands, and a walk that ends at the first vehicle that is at least partly in the lane.
@@ -9,8 +9,6 @@ use crate::Agent;
 const BAND_M: f64 = 0.18;
 /// Bands of a road are at most as many, so that a vehicle far away from it costs no memory.
 const MOST_BANDS: usize = 256;
-/// Straight roads whose headings differ by less run side by side, as relations of vehicles have it \[rad\].
-const SAME_ROAD_RAD: f64 = 0.1;
 
 /// A vehicle on a straight road.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,14 +27,11 @@ pub(crate) struct OnRoad {
     pub speed_mps: f64,
     /// Its last acceleration \[m/s²\].
     pub acceleration_mps2: f64,
-    /// Whether it has no driver.
-    pub is_obstacle: bool,
 }
 
 /// The vehicles of one straight road.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Road {
-    heading_rad: f64,
     /// From rear to front.
     vehicles: Vec<OnRoad>,
     /// Lateral coordinate at which the first band begins, and the width of each \[m\].
@@ -47,12 +42,12 @@ struct Road {
     longest_m: f64,
 }
 
-/// All vehicles by their straight roads, which have clearly different directions.
+/// All vehicles of one straight road by lanes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LaneOrder {
-    roads: Vec<Road>,
-    /// Road and number of each row.
-    places: Vec<Option<(u32, u32)>>,
+    road: Road,
+    /// The place of each row in the order.
+    places: Vec<Option<u32>>,
 }
 
 /// A strip of a road that is looked at: a lane, or the way of a body.
@@ -65,57 +60,31 @@ pub(crate) struct Strip {
 }
 
 impl LaneOrder {
-    /// Whether vehicles are all on straight roads of clearly different directions.
-    pub(crate) fn has_all<'a>(mut agents: impl Iterator<Item = &'a Agent>) -> bool {
-        let mut order = LaneOrder::default();
-        agents.all(|agent| agent.route.straight().is_some() && order.has_road_of(agent))
+    /// Whether vehicles are all on one straight road.
+    pub(crate) fn has_all<'a>(agents: impl Iterator<Item = &'a Agent>) -> bool {
+        let mut headings_rad = agents.map(|agent| agent.route.straight().map(|corridor| corridor.heading_rad));
+        let Some(Some(first_rad)) = headings_rad.next() else { return false };
+        headings_rad.all(|heading_rad| heading_rad == Some(first_rad))
     }
 
-    /// Sorts vehicles anew, by their rows; none are not on the road. Nothing is sorted where not all are on straight roads of clearly
-    /// different directions. Memory is kept from the last time.
-    pub(crate) fn sort<'a>(&mut self, agents: impl Iterator<Item = Option<&'a Agent>> + Clone) {
+    /// Sorts vehicles of one straight road anew, by their rows; none are not on the road. Memory is kept from the last time.
+    pub(crate) fn sort<'a>(&mut self, agents: impl Iterator<Item = Option<&'a Agent>>) {
         self.places.clear();
-        self.places.resize(agents.clone().count(), None);
-        self.roads.iter_mut().for_each(Road::clear);
-        let present = || agents.clone().enumerate().filter_map(|(row, agent)| Some((row, agent?)));
-        for (_, agent) in present() {
-            if agent.route.straight().is_none() || !self.has_road_of(agent) {
-                self.roads.clear();
-                return;
-            }
+        self.road.clear();
+        for (row, agent) in agents.enumerate() {
+            self.places.push(None);
+            self.road.vehicles.extend(agent.map(|agent| OnRoad::of(row, agent)));
         }
-        for (row, agent) in present() {
-            if let Some(road) = self.roads.iter_mut().find(|road| road.is_of(agent)) {
-                road.vehicles.push(OnRoad::of(row, agent));
-            }
-        }
-        for (number, road) in self.roads.iter_mut().enumerate() {
-            road.sort();
-            for (place, vehicle) in road.vehicles.iter().enumerate() {
-                self.places[vehicle.row] = Some((number as u32, place as u32));
-            }
+        self.road.sort();
+        for (place, vehicle) in self.road.vehicles.iter().enumerate() {
+            self.places[vehicle.row] = Some(place as u32);
         }
     }
 
-    /// Finds or adds the road of a vehicle; `false` if it runs at a small angle to another one.
-    fn has_road_of(&mut self, agent: &Agent) -> bool {
-        if self.roads.iter().any(|road| road.is_of(agent)) {
-            return true;
-        }
-        let heading_rad = heading_rad(agent);
-        let is_apart = |road: &Road| libm::cos(road.heading_rad - heading_rad) < libm::cos(SAME_ROAD_RAD);
-        let is_new = self.roads.iter().all(is_apart);
-        if is_new {
-            self.roads.push(Road { heading_rad, ..Road::default() });
-        }
-        is_new
-    }
-
-    /// The vehicle of a row on its road; none where roads are not known.
+    /// The vehicle of a row on its road; none of a vehicle that is not sorted.
     pub(crate) fn of(&self, row: usize) -> Option<OnStraightRoad<'_>> {
-        let (road, number) = (*self.places.get(row)?)?;
-        let road = self.roads.get(road as usize)?;
-        Some(OnStraightRoad { road, own: &road.vehicles[number as usize] })
+        let place = (*self.places.get(row)?)?;
+        Some(OnStraightRoad { road: &self.road, own: &self.road.vehicles[place as usize] })
     }
 }
 
@@ -130,23 +99,14 @@ impl OnRoad {
             width_m: agent.body.width_m,
             speed_mps: agent.state.speed_mps,
             acceleration_mps2: agent.previous_input.acceleration_mps2,
-            is_obstacle: agent.is_obstacle,
         }
     }
-}
-
-fn heading_rad(agent: &Agent) -> f64 {
-    agent.route.straight().map_or(f64::NAN, |corridor| corridor.heading_rad)
 }
 
 impl Road {
     fn clear(&mut self) {
         self.vehicles.clear();
         self.bands.iter_mut().for_each(Vec::clear);
-    }
-
-    fn is_of(&self, agent: &Agent) -> bool {
-        self.heading_rad == heading_rad(agent)
     }
 
     fn sort(&mut self) {
@@ -183,9 +143,8 @@ pub(crate) struct OnStraightRoad<'a> {
 }
 
 impl<'a> OnStraightRoad<'a> {
-    /// The vehicle with the smallest gap ahead of its own front that is at least partly in a strip, among those that count, and that gap
-    /// between bumpers \[m\].
-    pub fn ahead(&self, strip: Strip, counts: impl Fn(&OnRoad) -> bool) -> Option<(&'a OnRoad, f64)> {
+    /// The vehicle with the smallest gap ahead of its own front that is at least partly in a strip, and that gap between bumpers \[m\].
+    pub fn ahead(&self, strip: Strip) -> Option<(&'a OnRoad, f64)> {
         let (road, own) = (self.road, self.own);
         let mut best: Option<(&OnRoad, f64)> = None;
         for band in road.bands_of(strip) {
@@ -198,7 +157,7 @@ impl<'a> OnStraightRoad<'a> {
                     break;
                 }
                 let gap_m = ahead_m - other.ends_m[1] - own.ends_m[0];
-                if is_in(strip, other) && counts(other) && best.is_none_or(|(_, least_m)| gap_m < least_m) {
+                if is_in(strip, other) && best.is_none_or(|(_, least_m)| gap_m < least_m) {
                     best = Some((other, gap_m));
                 }
             }

@@ -73,7 +73,7 @@ pub struct Traffic {
     pub near: Neighbours,
     /// What drivers see who do not know plans.
     pub observations: Observations,
-    /// The vehicles of straight roads by lanes, for drivers that react.
+    /// The vehicles of a straight road by lanes, for drivers that react.
     pub lane_order: LaneOrder,
 }
 

@@ -1,9 +1,9 @@
 //! The vehicles whose drivers react instead of planning: what they see, what the rules ask of them, and how urgent it is.
 //!
 //! A driver reacts if its kind does ([`DriverKind::reacts`](crate::DriverKind::reacts)), it sees the motion of the others only, and no
-//! plan of it is told: then nothing but its input can be known of its decision. It reacts where all vehicles of a run are on straight roads
-//! without obstacles, on which it sees the others by lanes, however far away they are ([`LaneOrder`]). On networks, and where obstacles
-//! are passed, it plans over the horizon like the others.
+//! plan of it is told: then nothing but its input can be known of its decision. It reacts where all vehicles of a run are on one straight road
+//! without obstacles, on which it sees the others by lanes, however far away they are ([`LaneOrder`]). On networks, where roads cross, and
+//! where obstacles are passed, it plans over the horizon like the others.
 
 use super::Traffic;
 use super::road_user::RoadUser;
@@ -54,7 +54,7 @@ impl Traffic {
         let way = Strip { centre_m: own.across_m, width_m: own.width_m };
         let behind =
             |(leader, gap_m): (&OnRoad, f64)| braking_behind(agent, gap_m, leader.speed_mps, leader.acceleration_mps2);
-        ratio_to_comfort(agent, road.ahead(way, |_| true).map_or(0.0, behind))
+        ratio_to_comfort(agent, road.ahead(way).map_or(0.0, behind))
     }
 
     /// Asks every reacting driver on the road for its input. `ask` answers for several rows at once, in their order: no answer depends on

@@ -166,7 +166,7 @@ proptest! {
             let behind = others().filter(is_in).map(lead_m).filter(|lead_m| *lead_m <= 0.0).reduce(f64::max);
             let found = order.of(row).expect("on a straight road");
             let found_m = |other: &OnRoad| other.along_m - found.own.along_m;
-            prop_assert_eq!(found.ahead(strip, |_| true).map(|(other, _)| found_m(other)), ahead);
+            prop_assert_eq!(found.ahead(strip).map(|(other, _)| found_m(other)), ahead);
             prop_assert_eq!(found.behind(strip, |_| true).map(found_m), behind);
         }
     }

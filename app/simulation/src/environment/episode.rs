@@ -5,18 +5,25 @@ use std::f64::consts::TAU;
 use interplay_planners::State;
 use interplay_scenarios::{Scenario, Vehicle};
 
-use super::RewardTerm;
+use super::{EnvironmentSettings, RewardTerm};
 use super::reward::TermValues;
-use crate::measure::{Measures, ObservedMoment, VehicleMeasures, time_gap_s};
+use crate::measure::{Measures, Subscriptions, ObservedMoment, VehicleMeasures, time_gap_s};
 use crate::physics::gap_m;
 use crate::state::frame::{Collision, Frame};
 
 /// The metrics of an agent of which its reward and its ending are made; who is at fault stands in the contacts.
-pub(super) const METRICS: [&str; 5] = [EMERGENCIES, BROKEN, LEAVES_ROAD, ASTRIDE, "contacts_at_fault"];
+const METRICS: [&str; 5] = [EMERGENCIES, BROKEN, LEAVES_ROAD, ASTRIDE, "contacts_at_fault"];
 const EMERGENCIES: &str = "emergency_braking";
 const BROKEN: &str = "rules_broken";
 const LEAVES_ROAD: &str = "leaves_road";
 const ASTRIDE: &str = "astride_s";
+
+impl EnvironmentSettings {
+    /// What the rewards and endings of agents are made of, which are indices of vehicles; with a report, everything.
+    pub(super) fn subscriptions(&self, agents: impl Iterator<Item = usize>) -> Subscriptions {
+        if self.report { Subscriptions::everything() } else { Subscriptions::only(&METRICS, &agents.collect::<Vec<_>>()) }
+    }
+}
 
 /// How an episode ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,13 +9,11 @@ use interplay_planners::{Driver, DriverKind, Planner};
 use interplay_scenarios::Scenario;
 
 use super::agent_interface::{AgentInterface, goes_on};
-use super::episode::METRICS;
 use super::{
     ActionSpace, DiscreteMeta, EnvironmentError, EnvironmentSettings, Episode, EpisodeStart, ObservationSpace,
     StreetDraw,
 };
 use crate::Simulation;
-use crate::measure::Subscriptions;
 use crate::report::Report;
 
 /// A scenario in which some vehicles are driven from outside, episode by episode.
@@ -99,12 +97,6 @@ impl Environment {
         Ok(())
     }
 
-    /// The same environment, whose episodes end without a full report.
-    pub(super) fn without_report(mut self) -> Environment {
-        Arc::make_mut(&mut self.settings).report = false;
-        self
-    }
-
     /// The scenario, with its agents driven from outside.
     pub fn scenario(&self) -> &Scenario {
         &self.scenario
@@ -183,7 +175,8 @@ impl Environment {
             EpisodeStart::Drawn(seed) => settings.start.drawn(&self.scenario, seed),
             EpisodeStart::AsWritten(seed) => Scenario { seed, ..(*self.scenario).clone() },
         };
-        let world = Simulation::builder(&drawn).subscribed_to(self.subscriptions()).build()?;
+        let agents = self.seats.iter().map(|seat| seat.vehicle);
+        let world = Simulation::builder(&drawn).subscribed_to(settings.subscriptions(agents)).build()?;
         let (starts, horizon) = (drawn.starts(), drawn.horizon_steps);
         for seat in &mut self.seats {
             seat.interface = AgentInterface::new(&settings.observations, settings.action, horizon);
@@ -192,15 +185,6 @@ impl Environment {
         (self.world, self.time_s, self.episode_start) = (Some(world), 0.0, Some(start));
         self.decisions.clear();
         self.look()
-    }
-
-    /// What the rewards and endings are made of; with a report, everything.
-    fn subscriptions(&self) -> Subscriptions {
-        if self.settings.report {
-            return Subscriptions::everything();
-        }
-        let agents: Vec<usize> = self.seats.iter().map(|seat| seat.vehicle).collect();
-        Subscriptions::only(&METRICS, &agents)
     }
 
     /// Updates the sensed scene of every agent.

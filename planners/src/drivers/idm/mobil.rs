@@ -34,8 +34,8 @@ pub(super) trait SeenLanes {
     /// What is ahead in a lane, and who is behind.
     fn seen(&self, lane: usize) -> LaneTraffic;
 
-    /// Whether a vehicle is expected in a lane right beside the own one, which keeps its speed.
-    fn is_taken(&self, lane: usize) -> bool;
+    /// Whether a vehicle is expected in a lane with this traffic right beside the own one, which keeps its speed.
+    fn is_taken(&self, lane: usize, traffic: &LaneTraffic) -> bool;
 
     /// Whether there is room to leave the own lane.
     fn has_room(&self) -> bool;
@@ -104,7 +104,7 @@ impl SeenLanes for LanesOfScene<'_> {
     }
 
     /// Only a driver that sees motion expects it.
-    fn is_taken(&self, lane: usize) -> bool {
+    fn is_taken(&self, lane: usize, _: &LaneTraffic) -> bool {
         let Scene { ego, knowledge, step_s, .. } = self.scene;
         let ratio = ego.body.real_ratio();
         let steps = (LOOK_AHEAD_S * ratio.sqrt() / step_s).ceil() as usize;
@@ -144,7 +144,7 @@ pub(super) fn choose(
     if off_centre.abs() > 0.25 * lanes.width_m() {
         let nearest = lanes.at(own.across_m);
         let may_turn_back = (own.across_m - lanes.centre_m(nearest)).abs() < TURNING_BACK * lanes.width_m();
-        if nearest != now && may_turn_back && seen.is_taken(now) {
+        if nearest != now && may_turn_back && seen.is_taken(now, &seen.seen(now)) {
             return LaneChoice { lane: nearest, incentive_mps2: 0.0 };
         }
         return LaneChoice { incentive_mps2: 0.0, ..best };
@@ -154,11 +154,12 @@ pub(super) fn choose(
     // A driver does not change to a lane that it will have to leave again.
     for lane in beside.filter(|lane| lanes.end_m(*lane).is_none()) {
         let nearer = if lane.abs_diff(goal) < now.abs_diff(goal) { 1.0 } else { -1.0 };
-        if seen.is_taken(lane) {
+        let there = seen.seen(lane);
+        if seen.is_taken(lane, &there) {
             continue;
         }
         let here = *here.get_or_insert_with(|| seen.seen(now));
-        let change = Change { own, settings, here, there: seen.seen(lane) };
+        let change = Change { own, settings, here, there };
         let advantage = change.advantage() + nearer * mobil.bias_mps2 - mobil.threshold_mps2;
         let incentive_mps2 = if change.is_gentle() && seen.has_room() { advantage } else { -mobil.threshold_mps2 };
         if incentive_mps2 > best.incentive_mps2 {

@@ -74,7 +74,7 @@ impl Driver<'_> {
     }
 
     fn ahead(&self, lane: usize) -> Option<Leader> {
-        let vehicle = self.road.ahead(self.strip(lane), |_| true);
+        let vehicle = self.road.ahead(self.strip(lane));
         let vehicle = vehicle.map(|(leader, gap_m)| Leader { gap_m, speed_mps: leader.speed_mps });
         let ends = lane_ends(self.own, &self.lanes, lane, self.changing.along_m);
         vehicle.into_iter().chain(ends).min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
@@ -86,7 +86,7 @@ impl Driver<'_> {
         let strip = self.strip(lane);
         let drives_there = |other: &OnRoad| (other.across_m - strip.centre_m).abs() < 0.5 * strip.width_m;
         let rear_m = self.changing.along_m - self.changing.rear_m;
-        let ahead = self.road.ahead(strip, |_| true).is_some_and(|(_, gap_m)| gap_m < 0.0);
+        let ahead = self.road.ahead(strip).is_some_and(|(_, gap_m)| gap_m < 0.0);
         ahead || self.road.behind(strip, drives_there).is_some_and(|other| other.along_m + other.ends_m[0] > rear_m)
     }
 }
@@ -99,23 +99,19 @@ impl SeenLanes for Driver<'_> {
         LaneTraffic { ahead: self.ahead(lane), behind }
     }
 
-    /// Of the vehicles ahead and behind it is the nearest that comes beside first, at their present speeds.
-    fn is_taken(&self, lane: usize) -> bool {
-        let (strip, ratio) = (self.strip(lane), self.own.body.real_ratio());
-        let (Changing { along_m, rear_m, speed_mps, .. }, until_s) = (self.changing, LOOK_AHEAD_S * ratio.sqrt());
-        let comes = |gap_m: f64, closing_mps: f64| gap_m - closing_mps.max(0.0) * until_s < BESIDE_GAP_M * ratio;
-        let ahead = self.road.ahead(strip, |_| true);
-        let behind = self.road.behind(strip, |_| true);
-        ahead.is_some_and(|(other, gap_m)| comes(gap_m, speed_mps - other.speed_mps))
-            || behind.is_some_and(|other| {
-                comes(along_m - rear_m - other.along_m - other.ends_m[0], other.speed_mps - speed_mps)
-            })
+    /// Of the vehicles ahead and behind the nearest comes beside first, at their present speeds.
+    fn is_taken(&self, _: usize, LaneTraffic { ahead, behind }: &LaneTraffic) -> bool {
+        let (ratio, Changing { along_m, rear_m, speed_mps, .. }) = (self.own.body.real_ratio(), self.changing);
+        let (reach_m, until_s) = (BESIDE_GAP_M * ratio, LOOK_AHEAD_S * ratio.sqrt());
+        let comes = |gap_m: f64, closing_mps: f64| gap_m - closing_mps.max(0.0) * until_s < reach_m;
+        ahead.is_some_and(|leader| comes(leader.gap_m, speed_mps - leader.speed_mps))
+            || behind.is_some_and(|other| comes(along_m - rear_m - other.front_m, other.speed_mps - speed_mps))
     }
 
     /// Whether it comes past what stands ahead in its way.
     fn has_room(&self) -> bool {
         let way = Strip { centre_m: self.changing.across_m, width_m: self.own.body.width_m };
-        let ahead = self.road.ahead(way, |_| true).filter(|(other, _)| is_standing_at(self.own, other.speed_mps));
+        let ahead = self.road.ahead(way).filter(|(other, _)| is_standing_at(self.own, other.speed_mps));
         ahead.is_none_or(|(other, room_m)| {
             let beside_m = 0.5 * (self.own.body.width_m + other.width_m);
             let apart_m = other.across_m - self.changing.across_m;

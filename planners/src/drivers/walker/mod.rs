@@ -54,10 +54,6 @@ impl DriverKind for Settings {
         true
     }
 
-    fn reacts(&self) -> bool {
-        true
-    }
-
     fn is_vetoed(&self) -> bool {
         false
     }
