@@ -10,8 +10,8 @@ use interplay_planners::drivers::human::Style::{Nice, Tough};
 use interplay_planners::drivers::idm;
 use interplay_planners::road::centre_line::{Piece, smooth};
 use interplay_planners::trajectory::terms::{Comfort, FrenetTarget, FrenetTracking, RoadEdge, StopLine};
-use interplay_planners::trajectory::{Participant, Penalty, Problem, RouteStart, Term, check_derivatives};
-use interplay_planners::{Body, CentreLine, Driver, Profile, Route, State};
+use interplay_planners::trajectory::{Participant, Penalty, Problem, RouteStart, StageBounds, Term, check_derivatives};
+use interplay_planners::{Body, CentreLine, Driver, Input, Profile, Route, State};
 
 /// A road of two lanes of 0.37 m along a line.
 fn road(line: CentreLine) -> Arc<Route> {
@@ -67,13 +67,33 @@ fn off_the_road(random: &mut SplitMix64) -> Problem {
     Problem { horizon: HORIZON, participants: vec![participant], shared_steps: 0, terms }
 }
 
+/// A largest change of the steering angle which some changes of an iterate exceed and none is near: there the slope of its cost bends
+/// \[rad\].
+fn most_turn_rad(problem: &Problem, inputs: &[Input]) -> f64 {
+    let angles_rad = inputs.iter().map(|input| input.steering_rad);
+    let before_rad = std::iter::once(problem.participants[0].previous_input.steering_rad).chain(angles_rad.clone());
+    let mut changes_rad: Vec<f64> = angles_rad.zip(before_rad).map(|(now, before)| (now - before).abs()).collect();
+    changes_rad.sort_by(f64::total_cmp);
+    let lower_half = changes_rad[..changes_rad.len() / 2].windows(2);
+    let widest = lower_half.max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0]))).expect("changes");
+    0.5 * (widest[0] + widest[1])
+}
+
+/// With wheels that turn at once, and with slow ones.
 #[test]
 fn derivatives_agree_with_finite_differences() {
     for seed in 0..20 {
         let random = &mut SplitMix64::new(seed);
-        let problem = off_the_road(random);
-        let seen = check_derivatives(&problem, &iterate(&problem, random)).unwrap_or_else(|error| panic!("{error}"));
-        assert!(seen.first > 1.0 && seen.second > 1.0, "nothing costs anything here");
+        let mut problem = off_the_road(random);
+        let iterate = iterate(&problem, random);
+        let turn_rad = most_turn_rad(&problem, &iterate.inputs[0]);
+        let slow =
+            StageBounds { acceleration_mps2: [-1.0, 1.0], steering_rad: [-1.0, 1.0], speed_mps: [0.0, 1.5], turn_rad };
+        for bounds in [Vec::new(), vec![slow; HORIZON]] {
+            problem.participants[0].stage_bounds = bounds;
+            let seen = check_derivatives(&problem, &iterate).unwrap_or_else(|error| panic!("{error}"));
+            assert!(seen.first > 1.0 && seen.second > 1.0, "nothing costs anything here");
+        }
     }
 }
 

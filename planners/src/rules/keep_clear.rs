@@ -2,7 +2,7 @@
 
 use crate::Agent;
 use crate::road::network::RouteConflict;
-use crate::rules::giving_way::{can_stop, front_m, stopping_distance_m};
+use crate::rules::giving_way::{can_stop, front_m, length_m, stopping_distance_m};
 
 /// A vehicle ahead below this speed stands, or will stand, for 1/10 scale cars \[m/s\]: 1.6 m/s of a real one.
 const CREEPING_MPS: f64 = 0.5;
@@ -15,11 +15,13 @@ pub(super) fn line_m<'a>(ego: &Agent, others: impl Iterator<Item = &'a Agent>) -
     if ego.route.legs.iter().any(|leg| leg.is_zebra) {
         return None;
     }
-    let (mut place_m, ahead) = standing_place_m(ego, others)?;
-    let (front_m, before_m) = (front_m(ego), stopping_distance_m(ego));
+    let (front_m, before_m, length_m) = (front_m(ego), stopping_distance_m(ego), length_m(ego));
     let mut crossed: Vec<&RouteConflict> = ego.route.crossings().filter(|way| way.own_line_m >= front_m).collect();
+    if crossed.is_empty() {
+        return None;
+    }
     crossed.sort_by(|a, b| b.own_line_m.total_cmp(&a.own_line_m));
-    let length_m = ego.body.front_m + ego.body.rear_m;
+    let (mut place_m, ahead) = standing_place_m(ego, others)?;
     let mut line_m = None;
     for way in crossed {
         let is_blocked = way.own_m[0] < place_m && place_m - length_m < way.own_m[1];
@@ -49,7 +51,7 @@ fn standing_place_m<'a>(ego: &Agent, others: impl Iterator<Item = &'a Agent>) ->
         if other.state.speed_mps < CREEPING_MPS * ego.body.time_ratio() {
             return Some((along_m - other.body.rear_m - gap_m - taken_m, other));
         }
-        taken_m += other.body.front_m + other.body.rear_m + gap_m;
+        taken_m += length_m(other) + gap_m;
     }
     None
 }

@@ -17,9 +17,9 @@ const OVERTAKING_LENGTHS: f64 = 6.0;
 /// Time to spare before an oncoming vehicle arrives, for 1/10 scale cars \[s\].
 const SPARE_S: f64 = 0.8;
 
-/// Whether a road user has to stay in the lane of its route: it is in it, no lane beside is its aim, and no slow vehicle is ahead
-/// that it could overtake before another one comes, with road beside it all the way, and before a light or a crossing way. A stationary vehicle in the lane does not
-/// count, and neither does one that waits.
+/// Whether a road user has to stay in the lane of its route: it is in that lane, does not aim for another one, and cannot overtake a slow
+/// vehicle ahead. To overtake it needs road beside that vehicle all the way, and to be back before an oncoming vehicle, a light or a
+/// crossing way. Stationary vehicles and those that wait are not overtaken.
 pub(super) fn stays_in_lane(user: &Obliged<'_>, users: &[Obliged<'_>]) -> bool {
     let ego = &user.agent;
     if !is_in_lane(ego) || user.lateral_goal_m.abs() >= BEYOND_LINE_M * ego.body.scale {
@@ -67,7 +67,7 @@ fn has_road_beside(ego: &Agent, other: &Agent, across_m: f64, [from_m, to_m]: [f
 }
 
 /// Whether overtaking is forbidden somewhere on a stretch of a vehicle's route: at a light, or where another way crosses \[m\].
-fn is_forbidden(ego: &Agent, [from_m, to_m]: [f64; 2]) -> bool {
+pub(super) fn is_forbidden(ego: &Agent, [from_m, to_m]: [f64; 2]) -> bool {
     let is_on = |along_m: f64| (from_m..to_m).contains(&along_m);
     let is_lit = ego.route.legs.iter().any(|leg| leg.light.is_some() && is_on(leg.to_m));
     is_lit || ego.route.crossings().any(|way| way.own_m[0] < to_m && way.own_m[1] > from_m)

@@ -6,9 +6,9 @@ use crate::rules::giving_way::{can_stop, front_m, stopping_distance_m};
 
 /// At amber, who would have to brake harder than this goes on \[m/s²\].
 const AMBER_BRAKING_MPS2: f64 = 3.0;
-/// Who brakes at amber goes on braking, up to this \[m/s²\].
+/// A vehicle that already brakes at amber stops even if that takes more braking, up to this \[m/s²\].
 const DECIDED_BRAKING_MPS2: f64 = 5.0;
-/// A vehicle brakes that decelerates more than this \[m/s²\].
+/// A vehicle that decelerates more than this is braking \[m/s²\].
 const BRAKES_MPS2: f64 = 0.3;
 
 /// The line of the next traffic light at which a vehicle has to stop now, along its route; none where it goes on \[m\].

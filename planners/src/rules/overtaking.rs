@@ -4,6 +4,8 @@
 //! within a bounded time, nothing comes there, and no light, junction or crossing is on the way. It goes back behind the row if that ends
 //! before it is beside it. Else the lines of its lane bind.
 
+use super::giving_way::length_m;
+use super::lane::is_forbidden;
 use super::obstacle::swing_m;
 use super::queue;
 use crate::scene::relation::is_standing;
@@ -80,7 +82,9 @@ impl Overtaking {
                 let way = way_past(scene, &row);
                 let longest_s = LONGEST_S * ratio + (row.along_m[1] - row.along_m[0]) / faster_mps(scene, &row);
                 let is_short = way.beside_s <= longest_s || self.is_under_way;
-                is_short && !is_forbidden(&scene.ego, own_m + way.length_m) && !is_met(scene, &row, way, other_lane_m)
+                let back_m = own_m + way.length_m;
+                let is_allowed = back_m <= scene.ego.route.end_m() && !is_forbidden(&scene.ego, [own_m, back_m]);
+                is_short && is_allowed && !is_met(scene, &row, way, other_lane_m)
             };
         self.is_under_way.then_some(other_lane_m)
     }
@@ -105,7 +109,7 @@ fn faster_mps(scene: &Scene, row: &Row<'_>) -> f64 {
 fn row_ahead(scene: &Scene, is_under_way: bool) -> Option<Row<'_>> {
     let ego = &scene.ego;
     let own_m = ego.route.along(ego.state.position());
-    let ahead_m = AHEAD_LENGTHS * (ego.body.front_m + ego.body.rear_m);
+    let ahead_m = AHEAD_LENGTHS * length_m(ego);
     let from_m = own_m - if is_under_way { ego.body.rear_m + ahead_m } else { 0.0 };
     let reach_m = LOOK_AHEAD_S * ego.body.time_ratio() * scene.goal.target.speed_mps + ego.body.front_m;
     let in_lane = scene.others.iter().filter(|other| !other.is_obstacle).filter_map(|other| {
@@ -120,7 +124,7 @@ fn row_ahead(scene: &Scene, is_under_way: bool) -> Option<Row<'_>> {
     in_lane.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
     let (first_m, first) = in_lane.first().filter(|(along_m, _)| along_m[0] < own_m + reach_m)?;
     let mut row = Row { first, along_m: *first_m, speed_mps: first.state.speed_mps };
-    let room_m = ego.body.front_m + ego.body.rear_m + 2.0 * ahead_m;
+    let room_m = length_m(ego) + 2.0 * ahead_m;
     for (along_m, other) in &in_lane[1..] {
         if along_m[0] > row.along_m[1] + room_m {
             break;
@@ -139,7 +143,7 @@ fn is_near(scene: &Scene, row: &Row<'_>) -> bool {
     let gap_m = row.along_m[0] - ego.route.along(ego.state.position()) - ego.body.front_m;
     let [following_s, closing_s] = BEGIN_S.map(|time_s| time_s * ego.body.time_ratio());
     let closing_mps = (ego.state.speed_mps - row.speed_mps).max(0.0);
-    gap_m <= ego.body.front_m + ego.body.rear_m + following_s * row.speed_mps + closing_s * closing_mps
+    gap_m <= length_m(ego) + following_s * row.speed_mps + closing_s * closing_mps
 }
 
 /// The way past a row that keeps its speed, while the driver accelerates to the speed that it wants.
@@ -147,7 +151,7 @@ fn way_past(scene: &Scene, row: &Row<'_>) -> Way {
     let ego = &scene.ego;
     let own_m = ego.route.along(ego.state.position());
     let acceleration_mps2 = ACCELERATION_SHARE * ego.limits.acceleration_max_mps2;
-    let past_m = row.along_m[1] + ego.body.rear_m + AHEAD_LENGTHS * (ego.body.front_m + ego.body.rear_m) - own_m;
+    let past_m = row.along_m[1] + ego.body.rear_m + AHEAD_LENGTHS * length_m(ego) - own_m;
     let begins_m = row.along_m[0] - ego.body.front_m - swing_m(ego, row.speed_mps) - own_m;
     let (mut way, mut speed_mps) = (Way::default(), ego.state.speed_mps);
     let most_mps = scene.goal.target.speed_mps.max(speed_mps);
@@ -163,14 +167,6 @@ fn way_past(scene: &Scene, row: &Row<'_>) -> Way {
     way
 }
 
-/// Whether overtaking is forbidden before a place along a vehicle's route: at a light, or where another way crosses \[m\].
-fn is_forbidden(ego: &Agent, to_m: f64) -> bool {
-    let from_m = ego.route.along(ego.state.position());
-    let is_on = |along_m: f64| (from_m..to_m).contains(&along_m);
-    let is_lit = ego.route.legs.iter().any(|leg| leg.light.is_some() && is_on(leg.to_m));
-    is_lit || to_m > ego.route.end_m() || ego.route.crossings().any(|way| way.own_m[0] < to_m && way.own_m[1] > from_m)
-}
-
 /// Whether another vehicle is on the other lane before the driver is past a row, be it oncoming, standing or overtaking from behind.
 fn is_met(scene: &Scene, row: &Row<'_>, way: Way, other_lane_m: f64) -> bool {
     let ego = &scene.ego;
@@ -179,10 +175,11 @@ fn is_met(scene: &Scene, row: &Row<'_>, way: Way, other_lane_m: f64) -> bool {
     scene.others.iter().any(|other| {
         let at = ego.route.locate(other.state.position(), None);
         let reach_m = 0.5 * (ego.body.width_m + other.body.width_m);
-        if (at.across_m - other_lane_m).abs() >= reach_m || at.along_m + other.body.front_m < own_m - ego.body.rear_m {
-            // Behind: only what overtakes as well comes nearer.
-            let is_overtaking = (at.across_m - other_lane_m).abs() < reach_m;
-            return is_overtaking && other.state.speed_mps > ego.state.speed_mps;
+        if (at.across_m - other_lane_m).abs() >= reach_m {
+            return false;
+        }
+        if at.along_m + other.body.front_m < own_m - ego.body.rear_m {
+            return other.state.speed_mps > ego.state.speed_mps;
         }
         let along_mps = other.state.speed_mps * libm::cos(other.state.heading_rad - at.heading_rad);
         let rear_m = at.along_m - other.body.front_m.max(other.body.rear_m);

@@ -4,6 +4,7 @@
 //! A vehicle close behind one that waits belongs to its queue. How long it has stood, and whether it stood when it was first seen,
 //! says nothing.
 
+use super::giving_way::{front_m, length_m};
 use crate::Agent;
 
 /// A vehicle waits at a line that is at most this many lengths of its body ahead, besides the way in which it stops in comfort.
@@ -33,8 +34,7 @@ pub(super) fn waits<'a>(agent: &'a Agent, others: impl Iterator<Item = &'a Agent
 
 /// Whether a line close ahead holds a vehicle, or whether it indicates.
 fn is_held(agent: &Agent) -> bool {
-    let front_m = agent.along_m() + agent.body.front_m;
-    let is_near = |line_m: f64| line_m - front_m < reach_m(agent, LINE_LENGTHS);
+    let is_near = |line_m: f64| line_m - front_m(agent) < reach_m(agent, LINE_LENGTHS);
     agent.rules.stop_line_m.is_some_and(is_near) || agent.indicator.is_some()
 }
 
@@ -48,7 +48,7 @@ fn next_ahead<'a>(agent: &'a Agent, others: impl Iterator<Item = &'a Agent>) -> 
 /// A number of lengths of a vehicle, and the way in which it stops in comfort \[m\].
 fn reach_m(agent: &Agent, lengths: f64) -> f64 {
     let speed_mps = agent.state.speed_mps;
-    lengths * (agent.body.front_m + agent.body.rear_m) + speed_mps * speed_mps / (2.0 * COMFORTABLE_MPS2)
+    lengths * length_m(agent) + speed_mps * speed_mps / (2.0 * COMFORTABLE_MPS2)
 }
 
 #[cfg(test)]

@@ -28,7 +28,7 @@ pub enum RecordFault {
     },
 }
 
-/// Who goes backwards more slowly than this stands: that is noise of the record \[m/s\].
+/// Slower backward motion is noise of the record: the vehicle stands \[m/s\].
 const BACKWARDS_MPS: f64 = 0.2;
 
 /// Times that differ by less are equal \[s\].

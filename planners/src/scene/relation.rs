@@ -6,6 +6,7 @@
 use crate::road::centre_line::FrenetPoint;
 use crate::road::network::{ConflictKind, RouteConflict};
 use crate::scene::OwnPlace;
+use crate::scene::road_rules::Merging;
 use crate::{Agent, Route, State};
 
 /// Paths that meet at a smaller angle than this run side by side \[rad\].
@@ -139,7 +140,7 @@ impl Agent {
 
     /// The speed that it does not exceed for now, so that there is room when it joins the way of others \[m/s\]; none if nothing holds it.
     pub(crate) fn merging_speed_mps(&self) -> Option<f64> {
-        let crate::scene::road_rules::Merging { meeting_m, in_s, .. } = self.rules.merging.as_ref()?;
+        let Merging { meeting_m, in_s, .. } = self.rules.merging.as_ref()?;
         let front_m = self.route.along(self.state.position()) + self.body.front_m;
         Some(self.state.speed_mps.min((meeting_m - front_m).max(0.0) / in_s.max(1e-3)))
     }

@@ -18,9 +18,9 @@ impl Traffic {
     /// Decides which vehicles react in this tick.
     pub(super) fn let_react(&mut self) {
         let agents = || self.road_users.iter().map(|user| &user.agent);
-        let is_laned =
-            self.road_users.iter().any(|user| user.may_react) && agents().all(|agent| !agent.is_obstacle)
-                && LaneOrder::has_all(agents());
+        let is_laned = self.road_users.iter().any(|user| user.may_react)
+            && agents().all(|agent| !agent.is_obstacle)
+            && LaneOrder::has_all(agents());
         for user in &mut self.road_users {
             user.is_reacting = is_laned && user.may_react && user.observes() && !user.tells_plan;
         }

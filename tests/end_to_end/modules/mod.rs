@@ -36,7 +36,6 @@ const SHARED_NAMES: &[(&str, &str)] =
 
 /// Levels that may have circles, by crate and parent module, and why.
 const ACCEPTED_CIRCLES: &[(&str, &str, &str)] = &[
-    ("app/simulation", "environment", "an episode is drawn, rewarded and copied by the settings of its environment"),
     ("app/simulation", "simulation", "a simulation makes snapshots, and a snapshot resumes simulations"),
     ("app/simulation", "plants", "an error of a plant wraps that of BOPTEST, whose plant is one of them"),
     (

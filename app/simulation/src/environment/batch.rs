@@ -1,5 +1,7 @@
 //! Many environments that are stepped side by side.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::reward::TermValues;

@@ -8,18 +8,8 @@ use std::sync::Arc;
 use interplay_common::random::SplitMix64;
 use serde::{Deserialize, Serialize};
 
-use super::{Environment, EnvironmentError};
+use super::{Environment, EnvironmentError, EpisodeStart};
 use crate::Simulation;
-
-/// How an episode begins; the rest follows from the decisions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum EpisodeStart {
-    /// Drawn from this seed.
-    Drawn(u64),
-    /// The scenario as written, with this seed of its random numbers.
-    AsWritten(u64),
-}
 
 /// An episode up to a decision, as text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use interplay_planners::State;
 use interplay_scenarios::{Scenario, Vehicle};
 
-use super::{EnvironmentSettings, RewardTerm};
 use super::reward::TermValues;
-use crate::measure::{Measures, Subscriptions, ObservedMoment, VehicleMeasures, time_gap_s};
+use super::{EnvironmentSettings, RewardTerm};
+use crate::measure::{Measures, ObservedMoment, Subscriptions, VehicleMeasures, time_gap_s};
 use crate::physics::gap_m;
 use crate::state::frame::{Collision, Frame};
 
@@ -21,7 +21,11 @@ const ASTRIDE: &str = "astride_s";
 impl EnvironmentSettings {
     /// What the rewards and endings of agents are made of, which are indices of vehicles; with a report, everything.
     pub(super) fn subscriptions(&self, agents: impl Iterator<Item = usize>) -> Subscriptions {
-        if self.report { Subscriptions::everything() } else { Subscriptions::only(&METRICS, &agents.collect::<Vec<_>>()) }
+        if self.report {
+            Subscriptions::everything()
+        } else {
+            Subscriptions::only(&METRICS, &agents.collect::<Vec<_>>())
+        }
     }
 }
 

@@ -26,6 +26,7 @@ mod agent_interface;
 mod batch;
 mod copies;
 mod episode;
+mod error;
 mod network;
 mod observation;
 mod reward;
@@ -38,14 +39,15 @@ mod world;
 pub use action::{Action, ActionSpace, DiscreteMeta};
 pub use agent_interface::{AgentInterface, Policy, PolicyDriver, PolicyError};
 pub use batch::{Autoreset, BatchSteps, EnvironmentBatch};
-pub use copies::{EpisodeStart, SavedEpisode};
+pub use copies::SavedEpisode;
 pub use episode::{Ending, Episode};
+pub use error::EnvironmentError;
 pub use network::{NetworkPolicy, RegisterPolicies};
 pub use observation::{
     AgentView, BeliefView, ForeignView, Kinematics, LaneView, ObservationKind, ObservationSpace, OccupancyGrid,
     PlanView,
 };
-pub use reward::{EnvironmentError, EnvironmentSettings, RewardTerm, RewardWeights};
-pub use start::StartDraw;
+pub use reward::{EnvironmentSettings, RewardTerm, RewardWeights};
+pub use start::{EpisodeStart, StartDraw};
 pub use streets::StreetDraw;
 pub use world::Environment;

@@ -9,6 +9,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::physics::gap_m;
 
+/// How an episode begins; the rest follows from the decisions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EpisodeStart {
+    /// Drawn from this seed.
+    Drawn(u64),
+    /// The scenario as written, with this seed of its random numbers.
+    AsWritten(u64),
+}
+
 /// Random stream of the styles.
 const STYLES: u64 = 0x5374_796C;
 /// Distinguishes the seeds of repeated draws, where two vehicles touch, from the first.

@@ -158,14 +158,7 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::snapshot`].
     pub fn fork(&self) -> Result<Simulation, RunError> {
-        let mut world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
-        self.extensions.refuse_uncopied(&self.world, &world)?;
-        self.extensions.copy_states(&self.world, &mut world);
-        let (scenario, extensions) = (Arc::clone(&self.scenario), self.extensions.clone());
-        let mut copy = Simulation::assembled(self.name.clone(), scenario, self.time_points.clone(), world, extensions)?;
-        copy.inputs.clone_from(&self.inputs);
-        copy.replaced.clone_from(&self.replaced);
-        Ok(copy)
+        self.snapshot()?.into_simulation()
     }
 }
 
@@ -191,12 +184,24 @@ impl Snapshot {
     pub fn resume(&self) -> Result<Simulation, RunError> {
         let mut world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
         self.extensions.copy_states(&self.world, &mut world);
-        let (scenario, extensions) = (Arc::clone(&self.scenario), self.extensions.clone());
-        let mut simulation =
-            Simulation::assembled(self.name.clone(), scenario, self.time_points.clone(), world, extensions)?;
-        simulation.inputs.clone_from(&self.inputs);
-        simulation.replaced.clone_from(&self.replaced);
-        Ok(simulation)
+        let Snapshot { name, scenario, time_points, inputs, replaced, extensions, .. } = self;
+        let copy = Snapshot {
+            name: name.clone(),
+            scenario: Arc::clone(scenario),
+            time_points: time_points.clone(),
+            inputs: inputs.clone(),
+            replaced: replaced.clone(),
+            extensions: extensions.clone(),
+            world,
+        };
+        copy.into_simulation()
+    }
+
+    /// The simulation that continues from here, of the state itself instead of a copy.
+    fn into_simulation(self) -> Result<Simulation, RunError> {
+        let Snapshot { name, scenario, time_points, inputs, replaced, extensions, world } = self;
+        let simulation = Simulation::assembled(name, scenario, time_points, world, extensions)?;
+        Ok(Simulation { inputs, replaced, ..simulation })
     }
 
     pub(crate) fn digest(&self) -> String {

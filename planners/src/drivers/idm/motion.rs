@@ -1,8 +1,7 @@
 //! The motion of a driver who has chosen a lane.
 
 use super::Settings;
-use crate::drivers::lanes::Leader;
-use crate::drivers::lanes::{RoadLanes, leader};
+use crate::drivers::lanes::{Leader, RoadLanes, leader};
 use crate::prediction::steering::{admissible, roll_out, steer, steer_over_step};
 use crate::rules::obstacle::swing_m;
 use crate::scene::road_rules::Obstacle;
@@ -91,7 +90,7 @@ impl Motion<'_> {
         &self,
         state: &State,
         along_m: Option<f64>,
-        [left, taken]: [Option<Leader>; 2],
+        ahead: [Option<Leader>; 2],
         owed: Option<[Option<Leader>; 2]>,
     ) -> f64 {
         let Motion { settings, own, wanted_mps, .. } = *self;
@@ -107,9 +106,12 @@ impl Motion<'_> {
         let permitted_mps =
             places_m.and_then(|places_m| least(places_m.map(|along_m| own.permitted_speed_mps(along_m))));
         let wanted_mps = permitted_mps.map_or(wanted_mps, |permitted_mps| permitted_mps.min(wanted_mps));
-        let acceleration = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
-        let acceleration = owed.map_or(acceleration, |[left, taken]| {
-            let alone = settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]));
+        let among = |[left, taken]: [Option<Leader>; 2]| {
+            settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]))
+        };
+        let acceleration = among(ahead);
+        let acceleration = owed.map_or(acceleration, |owed| {
+            let alone = among(owed);
             let lost_mps = wanted_mps - state.speed_mps;
             let is_slow = lost_mps > COURTESY_MPS * own.body.real_ratio().sqrt();
             acceleration.max(alone.min(if is_slow { 0.0 } else { -COURTESY_MPS2 }))

@@ -1,9 +1,9 @@
 //! The answer of a driver on a straight road who sees the others by lanes: the model itself, at the present moment.
 
+use super::Settings;
 use super::diagnostics::{GAP, INCENTIVE, LANE};
 use super::mobil::{BESIDE_GAP_M, Changing, Follower, LOOK_AHEAD_S, LaneTraffic, SeenLanes, choose};
 use super::motion::Motion;
-use super::Settings;
 use crate::Agent;
 use crate::drivers::lanes::{Leader, RoadLanes, lane_ends};
 use crate::drivers::reaction::Reaction;

@@ -124,7 +124,8 @@ fn with_all(own: &Route, all: &[Route]) -> Vec<RouteConflict> {
         .collect()
 }
 
-/// Who goes first where routes meet only because a long vehicle swings out of its lanes: the other one; `None` where their lanes meet.
+/// The precedence where routes meet only because a long vehicle swings out of its lanes: the other vehicle goes first. `None` where their
+/// lanes themselves meet.
 fn swinging(own: &Route, other: &Route, conflict: &Conflict) -> Option<Precedence> {
     if own.plain.is_none() && other.plain.is_none() {
         return None;

@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::standing::{WAITING_LENGTHS, swing_m};
+use crate::rules::giving_way;
 use crate::scene::relation::is_standing;
 use crate::scene::road_rules::Obstacle;
 use crate::{Agent, Scene};
@@ -62,7 +63,7 @@ fn leaves_its_lane_first(scene: &Scene, other: &Agent, zone_m: [f64; 2], room_m:
     }
     let front_m = at.along_m - other.body.front_m;
     let swing_m = swing_m(&scene.ego, other.state.speed_mps);
-    let nearest = scene.others.iter().filter(|third| third.is_obstacle && is_standing(third)).filter_map(|third| {
+    let nearest = scene.others.iter().filter(|third| is_parked(third)).filter_map(|third| {
         let place = ego.route.locate(third.state.position(), None);
         let reach_m = 0.5 * (other.body.width_m + third.body.width_m);
         let end_m = place.along_m + third.body.front_m.max(third.body.rear_m);
@@ -118,16 +119,9 @@ pub(super) fn with_row(scene: &Scene, obstacle: Obstacle) -> Obstacle {
 
 /// The time for a way from now on, accelerating to a share of the wanted speed \[s\].
 fn time_s(scene: &Scene, way_m: f64) -> f64 {
-    let ego = &scene.ego;
+    let Scene { ego, goal, .. } = scene;
     let acceleration_mps2 = ACCELERATION_SHARE * ego.limits.acceleration_max_mps2;
-    let now_mps = ego.state.speed_mps;
-    let most_mps = (SPEED_SHARE * scene.goal.target.speed_mps).max(now_mps);
-    let until_s = (most_mps - now_mps) / acceleration_mps2;
-    let until_m = 0.5 * (now_mps + most_mps) * until_s;
-    if way_m <= until_m {
-        return ((now_mps * now_mps + 2.0 * acceleration_mps2 * way_m).sqrt() - now_mps) / acceleration_mps2;
-    }
-    if most_mps > 0.0 { until_s + (way_m - until_m) / most_mps } else { f64::INFINITY }
+    giving_way::time_s(way_m, ego.state.speed_mps, SPEED_SHARE * goal.target.speed_mps, acceleration_mps2)
 }
 
 /// Whether a vehicle that keeps its speed is on the borrowed strip within some time, or comes up from behind.

@@ -16,9 +16,6 @@ const PLACES_PER_WHEELBASE: f64 = 2.0;
 /// The most positions of a route that are checked.
 const MAX_PLACES: f64 = 10_000.0;
 
-/// A place is in a turn if the road turns by more than this within this distance before and behind it \[m\].
-const TURN_M: f64 = 8.0;
-const LEAST_TURN_COS: f64 = 0.995;
 /// A body is off the road if a corner is this far beyond an edge, in its widths: the bound of the measure `leaves_road`.
 const OFF_ROAD_WIDTHS: f64 = 0.03;
 /// The largest radius that is tried, as a multiple of the present one.
@@ -60,12 +57,7 @@ pub(crate) fn remark(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, 
 fn tight_turn(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)> {
     let Vehicle { name, body, limits, route, .. } = vehicle;
     let turner = Turner { body: *body, steering_max_rad: limits.steering_max_rad };
-    let (along_m, beyond_m) = route.leaves_road_m(&turner);
-    let heading_rad = |ahead_m: f64| route.heading_at(route.position(along_m + ahead_m, 0.0));
-    if libm::cos(heading_rad(TURN_M) - heading_rad(-TURN_M)) > LEAST_TURN_COS {
-        // A narrow place is not a turn.
-        return None;
-    }
+    let (along_m, beyond_m) = route.leaves_road_m(&turner, route.along(vehicle.start.position()));
     if beyond_m <= OFF_ROAD_WIDTHS * body.width_m {
         return None;
     }
@@ -93,7 +85,7 @@ fn smallest_radius(road: &Road, vehicle: &Vehicle, turner: &Turner) -> Option<(&
         *road.turn_radius()?.1 = f64::from(tenths) / 10.0;
         let network = RoadNetwork::new(road.network_lanes()?.ok()?).ok()?;
         let route = network.route_of_body(network.route(&lanes).ok()?, turner);
-        Some(route.leaves_road_m(turner).1 <= OFF_ROAD_WIDTHS * turner.body.width_m)
+        Some(route.leaves_road_m(turner, 0.0).1 <= OFF_ROAD_WIDTHS * turner.body.width_m)
     };
     let mut does_not = (10.0 * now_m) as u32;
     let mut works = (MOST_TIMES * 10.0 * now_m) as u32;

@@ -52,7 +52,9 @@ impl RoadNetwork {
     /// The route of a vehicle along the lanes of a route: the same, unless its body would leave its lane in a turn.
     pub fn route_of_body(&self, route: Route, turner: &Turner) -> Route {
         let width_m = 2.0 * route.half_width.extremes(0.0, route.end_m())[0];
-        if turner.body.front_m + turner.body.rear_m < LEAST_LENGTH_RATIO * width_m {
+        let is_short = turner.body.front_m + turner.body.rear_m < LEAST_LENGTH_RATIO * width_m;
+        if is_short || turner.body.width_m >= width_m {
+            // A body as wide as its lane leaves it everywhere.
             return route;
         }
         let windows = windows(&route, turner, width_m);
@@ -67,7 +69,7 @@ impl RoadNetwork {
                 paths.map(|(window_m, area)| Path::new(&route.centre, *window_m, turner, area, hardness)).collect();
             Some(NewLine::of(&route.centre, &paths)?.route(route.clone(), &areas, turner, width_m))
         };
-        let most_m = |route: &Route| route.leaves_road_m(turner).1;
+        let most_m = |route: &Route| route.leaves_road_m(turner, 0.0).1;
         // In a turn that is too tight, hard bounds would lead far from the road.
         let hard = along(&path::HARDNESS).filter(|swept| most_m(swept) <= TOO_TIGHT_WIDTHS * turner.body.width_m);
         hard.or_else(|| along(&path::HARDNESS[..1])).filter(|swept| most_m(swept) < most_m(&route)).unwrap_or(route)
@@ -143,14 +145,14 @@ fn kinematic_run(route: &Route, turner: &Turner, mut see: impl FnMut(f64, &[[f64
 }
 
 impl Route {
-    /// The place where a body that follows the route leaves the road most, and by how much \[m\]: zero where it stays on it. It is found
-    /// by driving the body along the route by the bicycle model.
-    pub fn leaves_road_m(&self, turner: &Turner) -> (f64, f64) {
+    /// The place from an arc length on where a body that follows the route leaves the road most, and by how much \[m\]: zero where it stays
+    /// on it. It is found by driving the body along the route by the bicycle model.
+    pub fn leaves_road_m(&self, turner: &Turner, from_m: f64) -> (f64, f64) {
         let mut worst = (0.0, 0.0);
         if self.centre.length_m().is_finite() {
             kinematic_run(self, turner, |along_m, corners, _| {
                 let beyond_m = beyond_m(self, [&self.right, &self.left], along_m, corners);
-                if beyond_m > worst.1 {
+                if along_m >= from_m && beyond_m > worst.1 {
                     worst = (along_m, beyond_m);
                 }
             });
