@@ -26,7 +26,7 @@ const LEAST_WAY_M: f64 = 0.1;
 pub(super) struct Observation {
     tick: usize,
     /// One for each row; none for a vehicle that was not on the road.
-    agents: Vec<Option<Arc<Agent>>>,
+    pub agents: Vec<Option<Arc<Agent>>>,
     arrivals: Arrivals,
 }
 

@@ -80,7 +80,7 @@ impl Traffic {
         self.observations = observations;
     }
 
-    fn made_of(&self) -> MadeOf<'_> {
+    pub(super) fn made_of(&self) -> MadeOf<'_> {
         let Traffic { tick, step_s, horizon, ref road_users, ref near, .. } = *self;
         MadeOf { tick, step_s, horizon, road_users, near }
     }

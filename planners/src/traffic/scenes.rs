@@ -6,6 +6,7 @@ use super::Traffic;
 use super::observation::{View, as_it_shows};
 use super::road_user::RoadUser;
 use crate::prediction::without_plan;
+use crate::rules::beside_no_network;
 use crate::scene::Knowledge;
 use crate::{Agent, Input, Scene, Trajectory};
 
@@ -29,6 +30,9 @@ impl Traffic {
     pub fn scene(&self, vehicle: usize) -> Scene {
         let user = &self.road_users[vehicle];
         let Some(view) = self.view(vehicle) else {
+            if user.is_reacting {
+                return self.scene_without_answer(vehicle);
+            }
             let near = self.near.of(vehicle, &self.road_users).into_iter();
             let known = near.map(|other| {
                 let RoadUser { agent, tells_plan, .. } = &self.road_users[other];
@@ -43,6 +47,16 @@ impl Traffic {
         let near = view.near.near_to(&user.agent, vehicle, |other| view.agents[other].as_ref());
         let others = near.into_iter().filter_map(|other| view.agents[other].clone()).collect();
         let knowledge = Knowledge::Motion { late_steps: user.late_steps(self.step_s) };
+        Scene { others, knowledge, ..self.moment_of(vehicle, &[]) }
+    }
+
+    /// The moment as a vehicle sees it whose driver was to react and gave no answer: without delay, with what is expected of the others.
+    fn scene_without_answer(&self, vehicle: usize) -> Scene {
+        let rules = self.road_users.iter().map(|user| beside_no_network(user.keeps_rules)).collect();
+        let seen = self.made_of().observation(rules, 0, self.rule_book.arrivals().clone());
+        let others = seen.agents.iter().enumerate().filter(|(other, _)| *other != vehicle);
+        let others = others.filter_map(|(_, agent)| agent.as_deref().cloned()).collect();
+        let knowledge = Knowledge::Motion { late_steps: 0 };
         Scene { others, knowledge, ..self.moment_of(vehicle, &[]) }
     }
 
