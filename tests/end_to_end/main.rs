@@ -44,6 +44,7 @@ mod foreign_plants;
 mod fork;
 mod gallery;
 mod identified_houses;
+mod joins;
 mod laws;
 mod learning;
 mod limits;

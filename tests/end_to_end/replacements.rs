@@ -82,7 +82,7 @@ const REPLACEMENTS: &[Replacement] = &[
     ("roundabout/cooperative", "human", "yields.ego.to.ring"),
     ("narrow-passage/cooperative", "human", "completes.ego"),
     ("on-ramp/five", "idm", "yields.rear.to.ego"),
-    ("all-way-stop/four", "conservative", "order"),
+    ("all-way-stop/four", "scripted", "order"),
     ("overtaking/oncoming", "idm", "order"),
     ("curve/lane-drop-cars", "idm", "order"),
     // Among drivers who ignore it, the ego must find the way by itself.

@@ -16,17 +16,11 @@
 use super::obliged::Obliged;
 use crate::Agent;
 use crate::road::network::{ConflictKind, Precedence, RouteConflict};
-use crate::rules::giving_way::{ENTERING_SHARE, front_m, length_m, time_s};
+use crate::rules::giving_way::{ENTERING_SHARE, LAG_BRAKING_MPS2, STANDSTILL_M, TIME_GAP_S, front_m, length_m, time_s};
 use crate::scene::road_rules::Merging;
 
 /// Ways that meet at a smaller angle than this run side by side before \[rad\].
 const BESIDE_RAD: f64 = 0.2;
-/// Gap at standstill, of real vehicles \[m\].
-const STANDSTILL_M: f64 = 2.0;
-/// Time gap ahead and behind, of real vehicles \[s\]: that of one in twenty recorded people is shorter.
-const TIME_GAP_S: f64 = 0.8;
-/// What the one behind may have to brake \[m/s²\].
-const LAG_BRAKING_MPS2: f64 = 1.5;
 /// A gap behind a vehicle slower than this is not waited for, of real vehicles \[m/s\].
 const LEAST_MPS: f64 = 1.0;
 /// Gaps are chosen this long before the ways meet, of real vehicles \[s\].
