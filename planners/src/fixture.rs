@@ -25,6 +25,7 @@ pub(crate) fn agent(x_m: f64, y_m: f64, heading_rad: f64, speed_mps: f64) -> Age
         indicator: None,
         rules: RoadRules::default(),
         urgency: 1.0,
+        own_place: Default::default(),
     }
 }
 

@@ -52,6 +52,7 @@
 //!         indicator: None,
 //!         rules: RoadRules::default(),
 //!         urgency: 1.0,
+//!         own_place: Default::default(),
 //!     }
 //! };
 //! let (ego, leader) = (agent("ego", 0.0, 1.2), agent("leader", 1.2, 0.4));

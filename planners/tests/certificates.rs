@@ -37,6 +37,7 @@ fn agent(name: &str, [x_m, y_m, heading_rad, speed_mps]: [f64; 4]) -> Agent {
         indicator: None,
         rules: interplay_planners::rules::RoadRules::default(),
         urgency: 1.0,
+        own_place: Default::default(),
     }
 }
 

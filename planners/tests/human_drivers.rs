@@ -187,6 +187,7 @@ fn any_agent() -> impl Strategy<Value = Agent> {
             indicator: None,
             rules: interplay_planners::rules::RoadRules::default(),
             urgency: 1.0,
+            own_place: Default::default(),
         }
     })
 }

@@ -1,10 +1,11 @@
 //! Simulation speed: by family, by number of vehicles, and by number of zones.
 //!
 //! ```sh
-//! cargo run --release -p interplay-simulation --example throughput -- [families] [vehicles] [motorway] [zones] [only NAME...]
+//! cargo run --release -p interplay-simulation --example throughput -- [families] [vehicles] [motorway] [zones] [only NAME...] [subscribed FILE]
 //! ```
 //!
-//! prints a Markdown table for each word (all four without any). `only` times the authored scenarios of these names. Times are
+//! prints a Markdown table for each word (all four without any). `only` times the authored scenarios of these names. `subscribed FILE`
+//! steps the world of a file that measures contacts, progress and the digest of the states alone, and prints that digest. Times are
 //! processor times of this process, which other programs on the machine disturb less than wall times; a world runs on one thread.
 //! Each figure is the shortest of [`BATCHES`] means over as many runs as take [`BATCH_S`].
 
@@ -16,6 +17,8 @@ use std::fs;
 use std::time::Instant;
 
 use interplay_scenarios::{Override, Scenario, embedded, from_text, load};
+use interplay_simulation::Simulation;
+use interplay_simulation::measure::Subscriptions;
 use interplay_simulation::run::run;
 
 /// Number of batches of the same runs.
@@ -44,6 +47,11 @@ const SPACING_M: f64 = 2.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
+    if let [word, path] = words.as_slice()
+        && word == "subscribed"
+    {
+        return subscribed(path);
+    }
     let is_asked = |word: &str| {
         words.is_empty() || words.first().is_some_and(|first| first != "only") && words.iter().any(|one| one == word)
     };
@@ -72,6 +80,17 @@ fn main() -> Result<(), Box<dyn Error>> {
             );
         }
     }
+    Ok(())
+}
+
+/// Steps the world of a file that measures nothing but contacts, progress and the digest of the states.
+fn subscribed(path: &str) -> Result<(), Box<dyn Error>> {
+    let scenario = from_text(path, &fs::read_to_string(path)?, &[])?;
+    let builder = Simulation::builder(&scenario).subscribed_to(Subscriptions::only(&[], &[]));
+    let mut simulation = builder.build()?;
+    while simulation.step()?.is_some() {}
+    let report = simulation.finish()?;
+    println!("{} {} contacts", report.digest, report.collisions.len());
     Ok(())
 }
 

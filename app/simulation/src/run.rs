@@ -30,13 +30,7 @@ pub fn run_unless(
     scenario: &Scenario,
     watchers: Vec<Box<dyn Watcher>>,
 ) -> Result<Report, RunError> {
-    let mut simulation = Simulation::watched(name, scenario, watchers)?;
-    while simulation.step()?.is_some() {
-        if is_cancelled() {
-            return Err(RunError::Cancelled);
-        }
-    }
-    simulation.finish()
+    finished(is_cancelled, Simulation::watched(name, scenario, watchers)?)
 }
 
 /// Runs `scenario` as [`run`] does, then its counterfactuals in parallel, and judges all of them. The scenario's own run is
@@ -49,7 +43,21 @@ pub fn run_with_counterfactuals(
     scenario: &Scenario,
     watchers: Vec<Box<dyn Watcher>>,
 ) -> Result<Report, RunError> {
-    let mut report = run(name, scenario, watchers)?;
+    run_on_threads(1, name, scenario, watchers)
+}
+
+/// The same, in which the vehicles of the scenario's own run decide on some threads; the result is the same with any number.
+///
+/// # Errors
+/// As [`run_with_counterfactuals`]; [`RunError::Threads`] if the system has no threads.
+pub fn run_on_threads(
+    threads: usize,
+    name: &str,
+    scenario: &Scenario,
+    watchers: Vec<Box<dyn Watcher>>,
+) -> Result<Report, RunError> {
+    let builder = Simulation::builder(scenario).with_name(name).with_watchers(watchers).with_threads(threads);
+    let mut report = finished(&|| false, builder.build()?)?;
     add_counterfactuals(&|| false, name, scenario, &mut report)?;
     Ok(report)
 }
@@ -73,4 +81,13 @@ pub fn add_counterfactuals(
         scenario.counterfactuals.par_iter().with_max_len(1).map(other).collect::<Result<Vec<Report>, RunError>>()?;
     report.judge_counterfactuals(scenario, runs);
     Ok(())
+}
+
+fn finished(is_cancelled: &(dyn Fn() -> bool + Sync), mut simulation: Simulation) -> Result<Report, RunError> {
+    while simulation.step()?.is_some() {
+        if is_cancelled() {
+            return Err(RunError::Cancelled);
+        }
+    }
+    simulation.finish()
 }

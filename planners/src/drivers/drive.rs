@@ -5,8 +5,10 @@ use std::fmt;
 
 use serde_json::{Map, Value as Json};
 
+use crate::drivers::reaction::Reaction;
 use crate::plan::diagnostic::Explanation;
 use crate::prediction::Prediction;
+use crate::scene::Moment;
 use crate::scene::inferred_futures::InferredFutures;
 use crate::scene::input_record::InputRecord;
 use crate::scene::record::Record;
@@ -76,6 +78,11 @@ pub trait DriverKind: Any + fmt::Debug + Send + Sync {
     /// Whether the driver plans before drivers that rely on knowing its plan. Its plans are then never refused: they are what the
     /// others have to live with.
     fn goes_first(&self) -> bool {
+        false
+    }
+
+    /// Whether it reacts to what it sees now and plans nothing ahead: among people it is then asked by [`Drive::react`].
+    fn reacts(&self) -> bool {
         false
     }
 
@@ -195,6 +202,12 @@ pub trait Drive: fmt::Debug + Send + Sync {
     /// # Errors
     /// [`PlanError`] if no plan was found; the vehicle then drives a fallback.
     fn plan(&mut self, scene: &Scene, inferred_futures: &InferredFutures) -> Result<Plan, PlanError>;
+
+    /// Answers with one input from what is around the vehicle now, in place of [`Drive::plan`]. `None` if the driver answers with plans only:
+    /// then it is asked for a plan of one step. Called only if [`DriverKind::reacts`].
+    fn react(&mut self, _moment: &Moment<'_>) -> Option<Reaction> {
+        None
+    }
 
     /// A copy that remembers the same, for snapshots of a run. `None` for a driver that cannot be copied, such as one that
     /// asks another program.

@@ -46,8 +46,13 @@ impl RoadLanes {
         if road.is_in_network() {
             return RoadLanes::beside_route(scene, along_m);
         }
-        let [right_m, left_m] = road.edges_before_end_m(along_m);
-        let width_m = width_m.unwrap_or(LANE_WIDTH_M * scene.ego.body.scale);
+        RoadLanes::across(&scene.ego, along_m, width_m)
+    }
+
+    /// The lanes of a road without named ones at an arc length, each as wide as stated \[m\], and by default as is usual.
+    pub(crate) fn across(own: &Agent, along_m: f64, width_m: Option<f64>) -> RoadLanes {
+        let [right_m, left_m] = own.route.edges_before_end_m(along_m);
+        let width_m = width_m.unwrap_or(LANE_WIDTH_M * own.body.scale);
         let count = ((left_m - right_m) / width_m).round().max(1.0) as usize;
         RoadLanes { right_m, width_m, count, ends: None }
     }
@@ -137,13 +142,19 @@ pub fn leader(scene: &Scene, lanes: &RoadLanes, lane: usize, state: &State, t: u
         let gap_m = ahead - other.body.rear_m - ego.body.front_m;
         (ahead > 0.0).then_some(Leader { gap_m, speed_mps: there.speed_mps })
     });
+    vehicles.chain(lane_ends(ego, lanes, lane, own)).min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
+}
+
+/// The ends of a lane ahead of a vehicle at an arc length \[m\], as standing vehicles.
+pub(crate) fn lane_ends(ego: &Agent, lanes: &RoadLanes, lane: usize, own: f64) -> impl Iterator<Item = Leader> {
     // Three length scales of its taper before the end no room is left.
-    let end = road
+    let end = ego
+        .route
         .lane_end()
         .filter(|_| lane == 0)
         .map(|end| Leader { gap_m: end.end_m - 3.0 * end.taper_m - own - ego.body.front_m, speed_mps: 0.0 });
     let ends = lanes.end_m(lane).map(|end_m| Leader { gap_m: end_m - own - ego.body.front_m, speed_mps: 0.0 });
-    vehicles.chain(end).chain(ends).min_by(|a, b| a.gap_m.total_cmp(&b.gap_m))
+    end.into_iter().chain(ends)
 }
 
 /// The nearest vehicle behind the ego in a lane, now.

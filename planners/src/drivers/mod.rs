@@ -19,6 +19,7 @@ pub mod lanes;
 pub mod nash;
 pub mod negotiation;
 pub(crate) mod partner_choice;
+pub mod reaction;
 pub(crate) mod receding_horizon;
 pub mod recorded;
 pub mod scripted;

@@ -42,7 +42,7 @@ fn has_crossed(agent: &Agent, other: &Agent) -> bool {
 pub(crate) fn distance_to_path(agent: &Agent, other: &Agent) -> Option<f64> {
     match agent.relation(other) {
         Relation::Conflict(conflict) => {
-            return Some(conflict.own_meeting_m - agent.route.along(agent.state.position()));
+            return Some(conflict.own_meeting_m - agent.along_m());
         }
         Relation::Apart => return None,
         Relation::Alongside | Relation::CrossingRoads => {}

@@ -73,6 +73,10 @@ impl DriverKind for Settings {
         true
     }
 
+    fn reacts(&self) -> bool {
+        true
+    }
+
     fn can_be_asked(&self) -> bool {
         false
     }
@@ -110,7 +114,7 @@ impl Drive for Scripted {
     /// Never.
     fn plan(&mut self, scene: &Scene, _: &InferredFutures) -> Result<Plan, PlanError> {
         let own = &scene.ego;
-        let [speed, lateral] = *self.kept.get_or_insert([own.state.speed_mps, own.route.across(own.state.position())]);
+        let [speed, lateral] = *self.kept.get_or_insert([own.state.speed_mps, own.across_m()]);
         self.look(scene);
         let trajectory = roll_out(scene, |t, state| {
             let time_s = scene.step_s * (scene.tick + t) as f64;

@@ -187,6 +187,7 @@ impl PredictedDriver {
             indicator: None,
             rules: RoadRules::default(),
             urgency: 1.0,
+            own_place: Default::default(),
         }
     }
 }

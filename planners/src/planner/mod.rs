@@ -4,11 +4,14 @@ use std::borrow::Cow;
 
 use crate::drivers::Driver;
 use crate::drivers::drive::{Drive, DriverKind};
+use crate::drivers::reaction::Reaction;
 use crate::perception::belief::{self, DriverBeliefs};
 use crate::perception::sensing::SensedScene;
 use crate::plan::certificate::{refused, refused_by_motion, violations, within_touch};
 use crate::plan::homotopy::HomotopyLog;
 use crate::prediction::Prediction;
+use crate::rules::urgency::emergency_braking_mps2;
+use crate::scene::Moment;
 use crate::scene::inferred_futures::InferredFutures;
 use crate::trajectory::Statistics;
 use crate::{Plan, PlanError, PlanViolation, Scene};
@@ -32,6 +35,8 @@ pub struct Planner {
     may_be_refused: bool,
     /// Whether a plan may be refused of a driver who sees the motion of the others only.
     is_vetoed: bool,
+    /// Whether the driver reacts and plans nothing ahead.
+    reacts: bool,
     /// When a plan is too late; never by default.
     deadline: Option<PlanDeadline>,
 }
@@ -59,6 +64,7 @@ impl Planner {
             prediction: kind.prediction().unwrap_or_default(),
             may_be_refused: kind.may_be_refused(),
             is_vetoed: kind.is_vetoed(),
+            reacts: kind.reacts(),
             deadline: None,
         }
     }
@@ -70,7 +76,7 @@ impl Planner {
 
     /// Replaces the driver. Properties of the former driver's kind remain: what the driver knows, and whether its plans may be refused.
     pub fn replace_driver(&mut self, driver: Box<dyn Drive>) {
-        self.driver = driver;
+        (self.driver, self.reacts) = (driver, false);
     }
 
     /// Changes the settings of the driver, or its kind. A driver of the same kind keeps its memory, one of another kind
@@ -83,6 +89,7 @@ impl Planner {
         self.prediction = kind.prediction().unwrap_or_default();
         self.may_be_refused = kind.may_be_refused();
         self.is_vetoed = kind.is_vetoed();
+        self.reacts = kind.reacts();
     }
 
     /// A copy with the same memory; `None` if the driver cannot be copied.
@@ -106,6 +113,27 @@ impl Planner {
             Some(_) => self.plan_sensed(&SensedScene::perfect(&near)),
             None => self.plan_as_told(&near, &InferredFutures::default()),
         }
+    }
+
+    /// Whether the driver reacts and plans nothing ahead.
+    pub fn reacts(&self) -> bool {
+        self.reacts
+    }
+
+    /// Asks a driver that reacts for its input at a moment. In place of the veto of a plan, it brakes in an emergency as hard as it needs.
+    ///
+    /// # Errors
+    /// [`PlanError`] if a driver that answers with plans only found none.
+    pub fn react(&mut self, moment: &Moment<'_>) -> Result<Reaction, PlanError> {
+        let mut reaction = match self.driver.react(moment) {
+            Some(reaction) => reaction,
+            None => Reaction::of(self.driver.plan(&moment.scene(), &InferredFutures::default())?),
+        };
+        if let Some(braking_mps2) = emergency_braking_mps2(moment.own).filter(|_| self.is_vetoed) {
+            let wanted_mps2 = &mut reaction.input.acceleration_mps2;
+            *wanted_mps2 = wanted_mps2.min(-braking_mps2);
+        }
+        Ok(reaction)
     }
 
     /// Plans the next move in a sensed scene, with inferred predictions where the driver knows no plans.

@@ -132,7 +132,7 @@ pub fn steady_inputs(scene: &Scene, acceleration_mps2: f64) -> Vec<Input> {
     let ego = &scene.ego;
     let mut inputs = steady(&ego.state, acceleration_mps2, &ego.limits, scene.horizon, scene.step_s);
     if ego.route.straight().is_none() {
-        let (at, half_m) = (ego.route.locate(ego.state.position(), None), 0.5 * ego.body.width_m);
+        let (at, half_m) = (ego.place(), 0.5 * ego.body.width_m);
         let [right_m, left_m] = ego.route.edges_before_end_m(at.along_m);
         let across_m = at.across_m.min(left_m - half_m).max(right_m + half_m);
         let (model, mut state, mut last_rad) = (scene.model(), ego.state, ego.previous_input.steering_rad);

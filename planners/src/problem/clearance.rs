@@ -141,7 +141,7 @@ impl Scene {
     /// What keeps the planning vehicle from touching a vehicle that waits for it or is oncoming, or an obstacle.
     pub(crate) fn beside(&self, other: &Agent, penalty: Penalty) -> KeepOut {
         let ego = &self.ego.body;
-        let [half_length_m, half_width_m] = other.half_extents_m(other.route.heading_at(other.state.position()));
+        let [half_length_m, half_width_m] = other.half_extents_m(other.place().heading_rad);
         let along_m = 0.5 * (ego.front_m + ego.rear_m) + half_length_m;
         let beside_m = 0.5 * ego.width_m + half_width_m + ASIDE_M * ego.scale;
         let passes = self.ego.rules.passes.as_ref().filter(|_| other.is_obstacle);

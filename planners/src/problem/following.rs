@@ -52,7 +52,7 @@ impl Scene {
         let ego = &self.ego;
         let corridor = ego.route.straight()?;
         let end = corridor.end?;
-        let [along_m, across_m] = [ego.route.along(ego.state.position()), ego.route.across(ego.state.position())];
+        let [along_m, across_m] = [ego.along_m(), ego.across_m()];
         let (edge_m, half_m) = (corridor.right_m + end.height_m, 0.5 * ego.body.width_m);
         let (front_m, line_m) = (along_m + ego.body.front_m, end.end_m - end.taper_m);
         if across_m - half_m >= edge_m || front_m >= line_m {
@@ -115,7 +115,7 @@ impl Scene {
         let ego = &self.ego;
         let comfort = ego.limits.comfort?;
         let standstill_m = STANDSTILL_GAP_M * ego.body.scale;
-        let (front_m, now_m) = (ego.body.front_m, ego.route.along(ego.state.position()));
+        let (front_m, now_m) = (ego.body.front_m, ego.along_m());
         let gap_now_m = now_m + ego.lead_of(leader) - leader.body.rear_m - now_m - front_m;
         let firm_m = |stage: usize, mps: f64| {
             let firm_m = FIRM_STANDSTILL_SHARE * standstill_m + FIRM_SHARE * comfort.time_gap_s * mps;

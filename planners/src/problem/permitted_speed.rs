@@ -59,7 +59,7 @@ impl Agent {
         if self.route.straight().is_some() {
             return Vec::new();
         }
-        let here_m = self.route.along(self.state.position());
+        let here_m = self.along_m();
         (1..=horizon).map(|t| here_m + self.state.speed_mps * step_s * t as f64).collect()
     }
 
@@ -76,7 +76,7 @@ impl Agent {
         let Limits { acceleration_min_mps2, acceleration_max_mps2, .. } = self.limits;
         let braking_mps2 = self.comfortable_braking_mps2();
         let mut speed_mps = self.state.speed_mps;
-        let mut room_m = line_m - self.body.front_m - self.route.along(self.state.position());
+        let mut room_m = line_m - self.body.front_m - self.along_m();
         let speeds = (0..horizon).map(|_| {
             let permitted_mps = (2.0 * braking_mps2 * room_m.max(0.0)).sqrt().min(wanted_mps);
             let (low, high) =

@@ -175,7 +175,7 @@ pub(crate) fn signed_lines(agent: &Agent) -> Vec<f64> {
 
 /// Where the front of a vehicle is on its route \[m\].
 pub(crate) fn front_m(agent: &Agent) -> f64 {
-    agent.route.along(agent.state.position()) + agent.body.front_m
+    agent.along_m() + agent.body.front_m
 }
 
 pub(crate) fn length_m(agent: &Agent) -> f64 {

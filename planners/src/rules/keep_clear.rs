@@ -36,7 +36,7 @@ pub(super) fn line_m<'a>(ego: &Agent, others: impl Iterator<Item = &'a Agent>) -
 /// Where the front of a vehicle will be when it stands behind the queue ahead in its lane \[m\], and the last vehicle of that queue; none
 /// if no vehicle stands ahead.
 fn standing_place_m<'a>(ego: &Agent, others: impl Iterator<Item = &'a Agent>) -> Option<(f64, &'a Agent)> {
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     let in_lane = others.filter_map(|other| {
         let at = ego.route.locate(other.state.position(), None);
         let is_along = libm::cos(other.state.heading_rad - at.heading_rad) > std::f64::consts::FRAC_1_SQRT_2;

@@ -25,7 +25,7 @@ pub(super) fn stays_in_lane(user: &Obliged<'_>, users: &[Obliged<'_>]) -> bool {
     if !is_in_lane(ego) || user.lateral_goal_m.abs() >= BEYOND_LINE_M * ego.body.scale {
         return false;
     }
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     let others = users.iter().filter(|other| other.agent.name != ego.name);
     let places = others.map(|other| (other.agent, ego.route.locate(other.agent.state.position(), None)));
     let places: Vec<(&Agent, FrenetPoint)> = places.collect();

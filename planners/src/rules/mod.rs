@@ -68,7 +68,7 @@ impl RuleBook {
     /// What is asked of each of some road users, in their order.
     pub(crate) fn judge(&self, tick: usize, step_s: f64, users: &[Obliged<'_>]) -> Vec<RoadRules> {
         if !are_judged(users) {
-            return users.iter().map(beside_no_network).collect();
+            return users.iter().map(|user| beside_no_network(user.keeps_rules)).collect();
         }
         let time_s = tick as f64 * step_s;
         let mut order = Order::of(&self.arrivals, users, time_s);
@@ -205,7 +205,7 @@ fn held([own, their]: [&Arrivals; 2], users: &[Obliged<'_>], vehicle: usize, lig
 fn asked(arrivals: &Arrivals, user: &Obliged<'_>, users: &[Obliged<'_>], holds: &[Hold], time_s: f64) -> RoadRules {
     let ego = &user.agent;
     if !user.is_judged() {
-        return beside_no_network(user);
+        return beside_no_network(user.keeps_rules);
     }
     let before_m = stopping_distance_m(ego);
     let is_lit = |line_m: &f64| lights::is_lit(ego, *line_m, time_s);
@@ -232,6 +232,6 @@ fn asked(arrivals: &Arrivals, user: &Obliged<'_>, users: &[Obliged<'_>], holds: 
 }
 
 /// What is asked where a road has no signs and no lanes that meet: to drive no faster than one wants in order to be first.
-pub(crate) fn beside_no_network(user: &Obliged<'_>) -> RoadRules {
-    RoadRules { are_kept: user.keeps_rules, ..RoadRules::default() }
+pub(crate) fn beside_no_network(are_kept: bool) -> RoadRules {
+    RoadRules { are_kept, ..RoadRules::default() }
 }

@@ -26,7 +26,7 @@ impl<'a> Obliged<'a> {
 
     /// A road user as far as the others can tell: it wants to drive as fast as is permitted where it is, and to stay in its lane.
     pub(crate) fn as_seen(agent: &'a Agent, keeps_rules: bool) -> Obliged<'a> {
-        let along_m = agent.route.along(agent.state.position());
+        let along_m = agent.along_m();
         let usual_mps = USUAL_SHARE * agent.limits.speed_max_mps;
         let wanted_mps = agent.permitted_speed_mps(along_m).unwrap_or(usual_mps).max(agent.state.speed_mps);
         let wanted_mps = wanted_mps.min(agent.limits.speed_max_mps);

@@ -160,7 +160,7 @@ fn way_past(scene: &Scene, row: &Row<'_>) -> Way {
     let own_m = ego.route.along(ego.state.position());
     let acceleration_mps2 = ACCELERATION_SHARE * ego.limits.acceleration_max_mps2;
     let past_m = row.along_m[1] + ego.body.rear_m + AHEAD_LENGTHS * length_m(ego) - own_m;
-    let begins_m = row.along_m[0] - ego.body.front_m - swing_m(scene, row.speed_mps) - own_m;
+    let begins_m = row.along_m[0] - ego.body.front_m - swing_m(ego, row.speed_mps) - own_m;
     let (mut way, mut speed_mps) = (Way::default(), ego.state.speed_mps);
     let most_mps = scene.goal.target.speed_mps.max(speed_mps);
     let longest_s = 4.0 * LONGEST_S * ego.body.time_ratio();

@@ -31,7 +31,7 @@ pub(super) fn evasion(scene: &Scene) -> Option<Evasion> {
     if !ego.route.is_in_network() {
         return None;
     }
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     let front_m = own_m + ego.body.front_m;
     let met = scene.others.iter().filter_map(|other| Some((meeting_m(scene, other, front_m)?, other)));
     let (line_m, other) = met.min_by(|a, b| a.0.total_cmp(&b.0))?;

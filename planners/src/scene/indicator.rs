@@ -26,7 +26,7 @@ impl IndicatorSide {
 impl Agent {
     /// What it indicates after it has made a plan, or, of a vehicle whose plan is not its own, of its present motion.
     pub(crate) fn indicates(&self, plan: Option<&Trajectory>, step_s: f64) -> Option<IndicatorSide> {
-        let here = self.route.locate(self.state.position(), None);
+        let here = self.place();
         let Some(plan) = plan else {
             let across_mps = self.state.speed_mps * libm::sin(self.state.heading_rad - here.heading_rad);
             let has_begun = across_mps.abs() > BEGUN_MPS * self.body.time_ratio();
@@ -37,6 +37,14 @@ impl Agent {
         let lane = (here.across_m / self.lane_width_m(&here)).round();
         let off = |at: FrenetPoint| at.across_m / self.lane_width_m(&at) - lane;
         self.route.locate_all(&soon).map(off).find(|off| off.abs() > CHANGE_LANES).map(IndicatorSide::of)
+    }
+
+    /// What it indicates while it drives to a lateral position \[m\].
+    pub(crate) fn indicates_towards(&self, lateral_m: f64) -> Option<IndicatorSide> {
+        let here = self.place();
+        let width_m = self.lane_width_m(&here);
+        let off = lateral_m / width_m - (here.across_m / width_m).round();
+        (off.abs() > CHANGE_LANES).then(|| IndicatorSide::of(off))
     }
 
     /// The middle of the lane to which it indicates across its route, from where it is; none if it does not \[m\].

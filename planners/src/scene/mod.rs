@@ -6,6 +6,9 @@ mod indicator;
 pub mod inferred_futures;
 pub(crate) mod input_record;
 pub mod knowledge;
+pub(crate) mod lane_order;
+mod moment;
+mod own_place;
 pub(crate) mod record;
 pub(crate) mod relation;
 pub(crate) mod road_rules;
@@ -13,6 +16,9 @@ pub mod trigger;
 
 pub use input_record::InputRecord;
 pub use knowledge::Knowledge;
+pub use lane_order::LaneOrder;
+pub use moment::Moment;
+pub use own_place::OwnPlace;
 
 use std::sync::Arc;
 
@@ -49,6 +55,8 @@ pub struct Agent {
     pub rules: RoadRules,
     /// How many times harder than is comfortable it has to brake now; 1 where comfort is enough, and before that is judged.
     pub urgency: f64,
+    /// Its place on its route, if it was searched.
+    pub own_place: OwnPlace,
 }
 
 /// The side on which a vehicle indicates.

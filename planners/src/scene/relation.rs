@@ -3,7 +3,9 @@
 //! On routes of one network this follows from where the routes meet ([`RouteConflict`]). On straight roads, which know nothing
 //! of each other, it follows from their directions where the other vehicle is.
 
+use crate::road::centre_line::FrenetPoint;
 use crate::road::network::{ConflictKind, RouteConflict};
+use crate::scene::OwnPlace;
 use crate::scene::road_rules::Merging;
 use crate::{Agent, Route, State};
 
@@ -35,6 +37,26 @@ pub(crate) enum Relation<'a> {
 }
 
 impl Agent {
+    /// Its place on its route.
+    pub fn place(&self) -> FrenetPoint {
+        self.own_place.or_search(&self.route, self.state.position())
+    }
+
+    /// Arc length of its mass centre on its route \[m\].
+    pub fn along_m(&self) -> f64 {
+        self.place().along_m
+    }
+
+    /// Lateral coordinate of its mass centre beside its route \[m\].
+    pub fn across_m(&self) -> f64 {
+        self.place().across_m
+    }
+
+    /// Searches its place, so that it is known until it moves.
+    pub fn note_place(&mut self) {
+        self.own_place = OwnPlace::of(&self.route, self.state.position());
+    }
+
     /// How the way of another vehicle is related to this one's.
     pub(crate) fn relation(&self, other: &Agent) -> Relation<'_> {
         if other.is_obstacle {
@@ -70,14 +92,14 @@ impl Agent {
 
     /// How far `other`'s centre is ahead along this vehicle's road \[m\].
     pub fn lead_of(&self, other: &Agent) -> f64 {
-        self.route.along(other.state.position()) - self.route.along(self.state.position())
+        self.route.along(other.state.position()) - self.along_m()
     }
 
     /// How far ahead another vehicle is in the order in which a planner turns to its partners: along the road, or, where the
     /// routes meet, the more the nearer the other is to the meeting \[m\].
     pub(crate) fn lead_or_nearness_of(&self, other: &Agent) -> f64 {
         match self.relation(other) {
-            Relation::Conflict(conflict) => other.route.along(other.state.position()) - conflict.their_meeting_m,
+            Relation::Conflict(conflict) => other.along_m() - conflict.their_meeting_m,
             Relation::Alongside | Relation::CrossingRoads | Relation::Apart => self.lead_of(other),
         }
     }
@@ -97,7 +119,7 @@ impl Agent {
 
     /// Whether two vehicles on one road overlap across it, so that one would run into the other.
     pub fn shares_lane_with(&self, other: &Agent) -> bool {
-        let apart = self.route.across(other.state.position()) - self.route.across(self.state.position());
+        let apart = self.route.across(other.state.position()) - self.across_m();
         self.relation(other) == Relation::Alongside
             && apart.abs() < 0.5 * (self.body.width_m + other.body.width_m)
             && (!self.route.is_in_network() || other.is_obstacle || is_along(&self.route, &other.state))
@@ -136,21 +158,24 @@ impl Agent {
 
 /// Whether a vehicle stands, or as good as stands.
 pub(crate) fn is_standing(agent: &Agent) -> bool {
-    agent.state.speed_mps.abs() < STANDING_MPS * agent.body.time_ratio()
+    is_standing_at(agent, agent.state.speed_mps)
+}
+
+/// The same at a speed, for vehicles of the scale of one.
+pub(crate) fn is_standing_at(like: &Agent, speed_mps: f64) -> bool {
+    speed_mps.abs() < STANDING_MPS * like.body.time_ratio()
 }
 
 /// The arc length of a vehicle's rear on its own route \[m\].
 fn rear_m(agent: &Agent) -> f64 {
-    agent.route.along(agent.state.position()) - agent.body.rear_m
+    agent.along_m() - agent.body.rear_m
 }
 
 /// Whether `other` is in the lane of `agent`, ahead of it.
 fn follows_in_lane(agent: &Agent, other: &Agent) -> bool {
     let at = agent.route.locate(other.state.position(), None);
     let reach_m = 0.5 * (agent.body.width_m + other.body.width_m);
-    at.along_m > agent.route.along(agent.state.position())
-        && at.across_m.abs() < reach_m
-        && is_along(&agent.route, &other.state)
+    at.along_m > agent.along_m() && at.across_m.abs() < reach_m && is_along(&agent.route, &other.state)
 }
 
 /// Whether a vehicle drives about in the direction of a route.
@@ -161,7 +186,7 @@ fn is_along(route: &Route, state: &State) -> bool {
 /// Whether any part of `other` is on the strip that `agent` may use, and its way does not lead across it there.
 pub(crate) fn is_on_strip(agent: &Agent, other: &Agent) -> bool {
     let at = agent.route.locate(other.state.position(), None);
-    if libm::cos(other.route.heading_at(other.state.position()) - at.heading_rad).abs() < libm::cos(ACROSS_RAD) {
+    if libm::cos(other.place().heading_rad - at.heading_rad).abs() < libm::cos(ACROSS_RAD) {
         return false;
     }
     touches_strip(agent, other)
@@ -173,4 +198,23 @@ fn touches_strip(agent: &Agent, other: &Agent) -> bool {
     let [right_m, left_m] = agent.route.edges_before_end_m(at.along_m);
     let half_m = 0.5 * other.body.width_m;
     (right_m - half_m..=left_m + half_m).contains(&at.across_m)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Corridor;
+    use crate::fixture::agent;
+
+    #[test]
+    fn a_known_place_is_that_of_the_present_position_and_route() {
+        let mut agent = agent(3.0, 0.2, 0.0, 1.0);
+        agent.note_place();
+        assert_eq!([agent.along_m(), agent.across_m()], [3.0, 0.2]);
+        agent.state.x_m = 4.0;
+        assert_eq!([agent.along_m(), agent.across_m()], [4.0, 0.2]);
+        agent.note_place();
+        let heading_rad = std::f64::consts::FRAC_PI_2;
+        agent.route = Corridor { heading_rad, right_m: -2.0, left_m: 2.0, end: None }.into();
+        assert!((agent.along_m() - 0.2).abs() < 1e-12 && (agent.across_m() + 4.0).abs() < 1e-12);
+    }
 }

@@ -67,7 +67,7 @@ impl Trigger {
             Some(lane) => agent.route.along_m(lane, self.reaches.along_m),
             None => Some(self.reaches.along_m),
         };
-        along_m.is_some_and(|along_m| agent.route.along(agent.state.position()) >= along_m)
+        along_m.is_some_and(|along_m| agent.along_m() >= along_m)
     }
 }
 

@@ -26,7 +26,7 @@ const LEAST_WAY_M: f64 = 0.1;
 pub(super) struct Observation {
     tick: usize,
     /// One for each row; none for a vehicle that was not on the road.
-    agents: Vec<Option<Arc<Agent>>>,
+    pub agents: Vec<Option<Arc<Agent>>>,
     arrivals: Arrivals,
 }
 
@@ -193,7 +193,7 @@ impl<'a> MadeOf<'a> {
 }
 
 /// What the rules ask of a vehicle, as far as it looks as if it will do it.
-fn as_it_shows(vehicle: &Agent, rules: RoadRules) -> RoadRules {
+pub(super) fn as_it_shows(vehicle: &Agent, rules: RoadRules) -> RoadRules {
     let Agent { route, body, state, previous_input, .. } = vehicle;
     let waits = rules.stop_line_m.is_none_or(|line_m| {
         let way_m = (line_m - route.along(state.position()) - body.front_m).max(LEAST_WAY_M * body.real_ratio());

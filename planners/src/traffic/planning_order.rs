@@ -17,7 +17,7 @@ pub fn planning_order(road_users: &[RoadUser]) -> Vec<usize> {
 
 /// Orders two road users; those that may plan in any order are equal, and a stable sort leaves them as they are listed.
 fn compare(a: &RoadUser, b: &RoadUser) -> Ordering {
-    let along_m = |user: &RoadUser| user.agent.route.along(user.agent.state.position());
+    let along_m = |user: &RoadUser| user.agent.along_m();
     match (a.goes_first, b.goes_first) {
         (true, true) => along_m(b).total_cmp(&along_m(a)),
         (true, false) => Ordering::Less,

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::committed::{CommittedPlan, Origin};
 use super::presence::{Presence, Stay};
+use crate::drivers::reaction::Reaction;
 use crate::rules::Obliged;
 use crate::scene::record::Record;
 use crate::{Agent, Goal, Input, Plan};
@@ -27,6 +28,12 @@ pub struct RoadUser {
     pub patience_s: f64,
     /// Whether it decides for itself where it drives: it does not follow a script, a record or inputs from outside.
     pub decides: bool,
+    /// Whether its driver may be asked for an input instead of a plan: it looks at nothing ahead.
+    pub may_react: bool,
+    /// Whether it is asked for an input in this tick.
+    pub is_reacting: bool,
+    /// The answer of a driver that has reacted; none before, and of others.
+    pub reaction: Option<Reaction>,
     /// Whether it keeps all rules of the road, speed limits too, and drives no faster than it wants.
     pub keeps_rules: bool,
     /// Whether a collision left it unfit to drive: it brakes, and its planner is not asked.
@@ -57,6 +64,9 @@ impl RoadUser {
             reaction_s: 0.0,
             patience_s: 0.0,
             decides: true,
+            may_react: false,
+            is_reacting: false,
+            reaction: None,
             keeps_rules: false,
             is_crashed: false,
             presence: Presence::Present,
@@ -93,8 +103,11 @@ impl RoadUser {
         (self.reaction_s / step_s).round().max(0.0) as usize
     }
 
-    /// The first input of its plan.
+    /// The input of its reaction, or the first of its plan.
     pub fn planned_input(&self) -> Input {
+        if let Some(reaction) = &self.reaction {
+            return reaction.input;
+        }
         let planned = self.committed.trajectory.as_ref().and_then(|plan| plan.inputs.first());
         planned.copied().unwrap_or_default()
     }

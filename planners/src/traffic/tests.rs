@@ -3,10 +3,10 @@
 use super::*;
 use crate::Agent;
 use crate::State;
-use crate::Trajectory;
 use crate::fixture::{agent, scene};
 use crate::plan::certificate::rolled_out;
 use crate::prediction::{constant_velocity, steady};
+use crate::{Input, Plan, PlanError, Scene, Trajectory};
 use proptest::prelude::*;
 
 const STEP_S: f64 = 0.1;

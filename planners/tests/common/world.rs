@@ -69,6 +69,7 @@ pub fn vehicle(
         indicator: None,
         rules: interplay_planners::rules::RoadRules::default(),
         urgency: 1.0,
+        own_place: Default::default(),
     };
     let target = State { x_m: 0.0, y_m: wants[0], heading_rad: 0.0, speed_mps: wants[1] };
     let goal = Goal { target, tracking, comfort: [0.1, 0.1], safety: SafetyEllipse::default() };

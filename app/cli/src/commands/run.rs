@@ -9,7 +9,7 @@ use interplay_presentation::report::summary;
 use interplay_presentation::shell;
 use interplay_scenarios::{Override, Registry, Scenario};
 use interplay_simulation::report::Report;
-use interplay_simulation::run::run_with_counterfactuals;
+use interplay_simulation::run::run_on_threads;
 use interplay_simulation::watch::Watcher;
 
 use crate::flag_values::files::short_name;
@@ -79,6 +79,10 @@ pub(crate) struct Run {
     /// End with 0 although nothing is expected of the run and its ego begins a contact
     #[arg(long)]
     allow_contacts: bool,
+
+    /// Threads on which vehicles decide whose decisions do not depend on each other: the run is the same with any number
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    threads: Option<u16>,
 
     /// Print the report as one JSON document
     #[arg(long)]
@@ -215,7 +219,7 @@ impl Run {
         if self.report.is_some() || self.outputs.needs_frames() {
             watchers.push(Box::new(frame_log.clone()));
         }
-        let report = run_with_counterfactuals(name, &scenario, watchers)?;
+        let report = run_on_threads(self.threads.map_or(1, usize::from), name, &scenario, watchers)?;
         let report = if self.allow_contacts { report } else { report.without_contacts_by_ego() };
         recording.map_or(Ok(()), |recording| recording.close(&report))?;
         let recorded = RecordedRun::to_draw(scenario, frame_log.frames(), report);

@@ -1,5 +1,7 @@
 //! Many environments that are stepped side by side.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::reward::TermValues;
@@ -104,6 +106,11 @@ impl EnvironmentBatch {
             return fault("all worlds have the same spaces and the same number of agents");
         }
         let (agents, over) = (first.agents().count(), vec![false; environments.len()]);
+        let without_report = |mut environment: Environment| {
+            Arc::make_mut(&mut environment.settings).report = false;
+            environment
+        };
+        let environments = environments.into_iter().map(without_report).collect();
         Ok(EnvironmentBatch { environments, autoreset, agents, over })
     }
 

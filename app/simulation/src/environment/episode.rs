@@ -5,11 +5,29 @@ use std::f64::consts::TAU;
 use interplay_planners::State;
 use interplay_scenarios::{Scenario, Vehicle};
 
-use super::RewardTerm;
 use super::reward::TermValues;
-use crate::measure::{Measures, ObservedMoment, VehicleMeasures, time_gap_s};
+use super::{EnvironmentSettings, RewardTerm};
+use crate::measure::{Measures, ObservedMoment, Subscriptions, VehicleMeasures, time_gap_s};
 use crate::physics::gap_m;
 use crate::state::frame::{Collision, Frame};
+
+/// The metrics of an agent of which its reward and its ending are made; who is at fault stands in the contacts.
+const METRICS: [&str; 5] = [EMERGENCIES, BROKEN, LEAVES_ROAD, ASTRIDE, "contacts_at_fault"];
+const EMERGENCIES: &str = "emergency_braking";
+const BROKEN: &str = "rules_broken";
+const LEAVES_ROAD: &str = "leaves_road";
+const ASTRIDE: &str = "astride_s";
+
+impl EnvironmentSettings {
+    /// What the rewards and endings of agents are made of, which are indices of vehicles; with a report, everything.
+    pub(super) fn subscriptions(&self, agents: impl Iterator<Item = usize>) -> Subscriptions {
+        if self.report {
+            Subscriptions::everything()
+        } else {
+            Subscriptions::only(&METRICS, &agents.collect::<Vec<_>>())
+        }
+    }
+}
 
 /// How an episode ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,15 +103,15 @@ impl Episode {
         let (vehicle, measured) = (&scenario.vehicles[index], &measures.vehicles[index]);
         let now = Counts {
             along_m: measures.along_m()[index],
-            emergencies: measured.metrics.number("emergency_braking"),
-            broken: measured.metrics.number("rules_broken"),
-            astride_s: measured.metrics.number("astride_s"),
+            emergencies: measured.metrics.number(EMERGENCIES),
+            broken: measured.metrics.number(BROKEN),
+            astride_s: measured.metrics.number(ASTRIDE),
             acceleration_mps2: frame.vehicles[index].input.acceleration_mps2,
         };
         let wanted_mps = vehicle.target(&scenario.road).speed_mps;
         let full_mps = if wanted_mps > 0.0 { wanted_mps } else { vehicle.limits.speed_max_mps };
         let has_contact = frame.collisions.iter().any(|contact| contact.between.contains(&vehicle.name));
-        let is_off_road = measured.metrics.number("leaves_road") > 0.0;
+        let is_off_road = measured.metrics.number(LEAVES_ROAD) > 0.0;
         let reaches_goal = measured.completion.completed_s.is_some();
         let mut add = |term: RewardTerm, value: f64| self.terms[term as usize] += value;
         add(RewardTerm::Progress, (now.along_m - self.before.along_m) / full_mps);

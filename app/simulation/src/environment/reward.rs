@@ -106,6 +106,8 @@ pub struct EnvironmentSettings {
     /// Interval of decisions \[s\], rounded to plans. By default, meta-actions last half a second of a real car, and other actions one
     /// plan.
     pub decision_s: Option<f64>,
+    /// Whether the report of an episode has all measures. Without, worlds are faster, and the report has the contacts and the digest only.
+    pub report: bool,
 }
 
 impl Default for EnvironmentSettings {
@@ -118,6 +120,7 @@ impl Default for EnvironmentSettings {
             start: StartDraw::default(),
             streets: None,
             decision_s: None,
+            report: true,
         }
     }
 }

@@ -175,7 +175,9 @@ impl Environment {
             EpisodeStart::Drawn(seed) => settings.start.drawn(&self.scenario, seed),
             EpisodeStart::AsWritten(seed) => Scenario { seed, ..(*self.scenario).clone() },
         };
-        let (world, starts, horizon) = (Simulation::new(&drawn)?, drawn.starts(), drawn.horizon_steps);
+        let agents = self.seats.iter().map(|seat| seat.vehicle);
+        let world = Simulation::builder(&drawn).subscribed_to(settings.subscriptions(agents)).build()?;
+        let (starts, horizon) = (drawn.starts(), drawn.horizon_steps);
         for seat in &mut self.seats {
             seat.interface = AgentInterface::new(&settings.observations, settings.action, horizon);
             seat.episode = Episode::begin(&drawn.vehicles[seat.vehicle], &starts[seat.vehicle]);

@@ -60,7 +60,7 @@ impl Digest {
 
     /// Adds one tick, and the states at its end, to the digests.
     pub fn observe(&mut self, frame: &Frame, after: &[State]) {
-        for (vehicle, state) in frame.vehicles.iter().zip(after) {
+        for vehicle in &frame.vehicles {
             numbers(&mut self.sense, &vehicle.state.to_array());
             if let Some(side) = vehicle.indicator {
                 self.sense.update(&[u8::from(side == IndicatorSide::Left)]);
@@ -71,8 +71,14 @@ impl Digest {
             }
             trajectory(&mut self.plan, &vehicle.plan.trajectory);
             numbers(&mut self.act, &vehicle.input.to_array());
-            numbers(&mut self.physics, &vehicle.state.to_array());
-            numbers(&mut self.physics, &state.to_array());
+        }
+        self.observe_states(frame, after);
+    }
+
+    /// Adds the states at the beginning and the end of one tick to the digest of the run alone.
+    pub fn observe_states(&mut self, frame: &Frame, after: &[State]) {
+        for (vehicle, state) in frame.vehicles.iter().zip(after) {
+            numbers(&mut self.physics, [vehicle.state.to_array(), state.to_array()].as_flattened());
         }
     }
 
@@ -90,14 +96,36 @@ impl Digest {
 }
 
 fn trajectory(hasher: &mut Xxh3, trajectory: &Trajectory) {
-    trajectory.states.iter().map(|state: &State| state.to_array()).for_each(|state| numbers(hasher, &state));
-    trajectory.inputs.iter().map(|input: &Input| input.to_array()).for_each(|input| numbers(hasher, &input));
+    trajectory
+        .states
+        .chunks(CHUNK / 4)
+        .for_each(|states| rows(hasher, states.iter().map(|state: &State| state.to_array())));
+    trajectory
+        .inputs
+        .chunks(CHUNK / 2)
+        .for_each(|inputs| rows(hasher, inputs.iter().map(|input: &Input| input.to_array())));
 }
 
-fn numbers(hasher: &mut Xxh3, values: &[f64]) {
-    for value in values {
-        hasher.update(&value.to_bits().to_le_bytes());
+/// How many numbers are hashed at once: the stream is the same for any, and updates are expensive.
+const CHUNK: usize = 64;
+
+/// Adds at most [`CHUNK`] numbers, row by row.
+fn rows<const N: usize>(hasher: &mut Xxh3, rows: impl Iterator<Item = [f64; N]>) {
+    let (mut values, mut count) = ([0.0; CHUNK], 0);
+    for row in rows {
+        values[count..count + N].copy_from_slice(&row);
+        count += N;
     }
+    numbers(hasher, &values[..count]);
+}
+
+/// Adds at most [`CHUNK`] numbers.
+fn numbers(hasher: &mut Xxh3, values: &[f64]) {
+    let mut bytes = [0; 8 * CHUNK];
+    for (to, value) in bytes.chunks_exact_mut(8).zip(values) {
+        to.copy_from_slice(&value.to_bits().to_le_bytes());
+    }
+    hasher.update(&bytes[..8 * values.len()]);
 }
 
 #[cfg(test)]

@@ -22,9 +22,46 @@ pub trait Metric: Debug + Send + Sync {
     /// of the run, that of the ego.
     fn begin(&self, scenario: &Scenario, start: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement>;
 
+    /// What it reads of a tick besides states, inputs and contacts. A run that does not subscribe to any metric with a need does not make
+    /// that part of its frames.
+    fn needs(&self) -> Needs {
+        Needs::EVERYTHING
+    }
+
     /// Distinguishes its values from those of earlier versions: rows of sweeps with another version are made again.
     fn version(&self) -> &'static str {
         ""
+    }
+}
+
+/// What of the frames a measurement reads besides states, inputs and contacts.
+///
+/// A part that no subscribed measurement needs is not made: its fields of the frame are empty.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Needs {
+    /// The distances between footprints.
+    pub gaps: bool,
+    /// The rules of the road that are broken.
+    pub broken_rules: bool,
+    /// The vehicles at fault in contacts, and gaps that are cut short.
+    pub faults: bool,
+}
+
+impl Needs {
+    /// All parts.
+    pub const EVERYTHING: Needs = Needs { gaps: true, broken_rules: true, faults: true };
+
+    /// No part: states, inputs and contacts suffice.
+    pub const STATES: Needs = Needs { gaps: false, broken_rules: false, faults: false };
+
+    /// The parts that either needs.
+    #[must_use]
+    pub fn and(self, other: Needs) -> Needs {
+        Needs {
+            gaps: self.gaps || other.gaps,
+            broken_rules: self.broken_rules || other.broken_rules,
+            faults: self.faults || other.faults,
+        }
     }
 }
 

@@ -60,7 +60,7 @@ struct ZoneApproach {
 ///
 /// A vehicle that starts in a zone enters it at the start; one that starts beyond it never does. The time of entry within
 /// a tick is interpolated linearly.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Passages {
     names: Vec<String>,
     bodies: Vec<Body>,

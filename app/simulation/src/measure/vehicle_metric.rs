@@ -3,7 +3,7 @@
 
 use interplay_scenarios::{MetricDeclaration, Scenario, Vehicle};
 
-use super::metric::{Measurement, Metric, ObservedMoment, ObservedTick, VehicleMoment, VehicleTick};
+use super::metric::{Measurement, Metric, Needs, ObservedMoment, ObservedTick, VehicleMoment, VehicleTick};
 use super::values::{Measured, MetricValue};
 
 /// A metric of each vehicle: a value at each tick, and the fold over all ticks.
@@ -68,6 +68,10 @@ impl Metric for VehicleMetric {
             folded.take(quantity(&moment), start.time_s);
         }
         Box::new(folded)
+    }
+
+    fn needs(&self) -> Needs {
+        Needs::STATES
     }
 }
 

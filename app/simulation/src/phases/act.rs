@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 use interplay_planners::Input;
 use interplay_planners::traffic::{RoadUser, applied_input};
 
-use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet};
+use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, SpareFrames};
 use crate::state::frame::VehicleFrame;
 
 /// Passes the decided inputs to the plant. With several ticks between plans, inputs change linearly from the last
@@ -45,11 +45,13 @@ pub fn describe(
     vehicles: Query<&Driving>,
     fleet: Res<Fleet>,
     traffic: Res<CurrentTraffic>,
-    mut current_frame: ResMut<CurrentFrame>,
+    (mut current_frame, mut spare): (ResMut<CurrentFrame>, ResMut<SpareFrames>),
 ) {
-    let described = fleet.0.iter().enumerate().map(|(row, entity)| {
+    let frame = &mut current_frame.0;
+    frame.vehicles.append(&mut spare.0);
+    frame.vehicles.resize_with(fleet.0.len(), VehicleFrame::default);
+    for (row, (entity, vehicle)) in fleet.0.iter().zip(&mut frame.vehicles).enumerate() {
         let plan_ms = vehicles.get(*entity).map_or(0.0, |driving| driving.plan_ms);
-        VehicleFrame::of(&traffic.0, row, plan_ms)
-    });
-    current_frame.0.vehicles = described.collect();
+        vehicle.become_row(&traffic.0, row, plan_ms);
+    }
 }

@@ -3,19 +3,22 @@
 use bevy_ecs::prelude::*;
 use interplay_planners::perception::sensing::SensedScene;
 
-use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, TrafficRow};
+use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, TrafficRow};
 use crate::state::frame::Frame;
 
 /// Opens the tick's [`Frame`] and prepares [`CurrentTraffic`] for it.
 pub fn sense(
-    mut vehicles: Query<&mut Driving>,
+    mut vehicles: Query<(&TrafficRow, &mut Driving, &HandedIn)>,
     clock: Res<Clock>,
     mut traffic: ResMut<CurrentTraffic>,
     mut current_frame: ResMut<CurrentFrame>,
 ) {
     let plans = clock.ticks_since_plan() == 0;
     current_frame.0 = Frame { tick: clock.tick, time_s: clock.time_s(), plans, ..Frame::default() };
-    vehicles.iter_mut().for_each(|mut driving| driving.plan_ms = 0.0);
+    for (row, mut driving, handed_in) in &mut vehicles {
+        driving.plan_ms = 0.0;
+        traffic.0.road_users[row.0].may_react = driving.may_react(handed_in);
+    }
     if plans {
         traffic.0.begin_plan(clock.plans(), clock.time_s());
     } else {

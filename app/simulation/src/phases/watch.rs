@@ -38,6 +38,11 @@ impl Watchers {
         Watchers { watchers, failure: None }
     }
 
+    /// Whether there are any.
+    pub(crate) fn are_there(&self) -> bool {
+        !self.watchers.is_empty()
+    }
+
     /// Ends the run for every watcher.
     ///
     /// # Errors

@@ -91,10 +91,10 @@ pub(super) fn transmitted_ns(world: &PhysicsWorld, pair: [RigidBodyHandle; 2]) -
 }
 
 /// One vehicle at the start of a tick.
-pub(super) struct Moving {
+pub(super) struct Moving<'a> {
     pub handle: RigidBodyHandle,
     pub body: Body,
-    pub footprint: Footprint,
+    pub footprint: &'a Footprint,
     pub state: State,
     pub input: Input,
     /// Whether it is not on the road: then it touches no vehicle and does not move.

@@ -58,7 +58,7 @@ impl DynamicPlant {
     pub fn advance(
         &mut self,
         world: &mut PhysicsWorld,
-        moving: &[Moving],
+        moving: &[Moving<'_>],
         step_s: f64,
         gaps: &mut FootprintGaps,
     ) -> (Vec<State>, Vec<Contact>) {

@@ -7,6 +7,7 @@ use interplay_scenarios::{Dynamic, Plant, Scenario, from_text};
 
 use super::step;
 use super::tyres::GRAVITY_MPS2;
+use crate::measure::Subscriptions;
 use crate::simulation::world_state::WorldState;
 use crate::state::components::{CurrentFrame, CurrentTraffic};
 use crate::state::frame::Collision;
@@ -45,7 +46,9 @@ fn states(world: &World) -> Vec<State> {
 
 /// The states after every tick in which each vehicle applies its own constant input, and the collisions.
 fn drive(plant: Dynamic, starts: &[State], inputs: &[Input], ticks: usize) -> (Vec<Vec<State>>, Vec<Collision>) {
-    let mut world = WorldState::initial(&scenario(plant, starts)).expect("no building").into_world(Vec::new());
+    let mut world = WorldState::initial(&scenario(plant, starts), &Subscriptions::everything())
+        .expect("no building")
+        .into_world(Vec::new());
     for (user, input) in world.resource_mut::<CurrentTraffic>().0.road_users.iter_mut().zip(inputs) {
         user.agent.previous_input = *input;
     }
@@ -177,7 +180,9 @@ fn on_ice_a_crash_conserves_momentum_and_angular_momentum() {
     let plant = Dynamic { friction: 1e-6, ..prompt() };
     let quarter = std::f64::consts::FRAC_PI_2;
     let starts = [at(-0.7, 0.1, 0.0, 2.0), at(0.0, 0.0, quarter, 0.0)];
-    let mut world = WorldState::initial(&scenario(plant, &starts)).expect("no building").into_world(Vec::new());
+    let mut world = WorldState::initial(&scenario(plant, &starts), &Subscriptions::everything())
+        .expect("no building")
+        .into_world(Vec::new());
     world.run_system_once(step).expect("physics runs");
     let before = super::momentum(&world);
     assert!(world.resource::<CurrentFrame>().0.collisions.is_empty() && before[0] > 1.0, "{before:?}");

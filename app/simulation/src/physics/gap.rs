@@ -1,17 +1,21 @@
 //! The true distances between footprints during a tick: of the ego to the others, and of any two vehicles.
 
+use std::sync::Arc;
+
 use interplay_planners::State;
 use interplay_scenarios::{Scenario, Vehicle};
 
-use super::footprint::{Footprint, distance_m};
+use super::footprint::{Footprint, distance_m, separation_m};
 use super::near_pairs::{near_pairs, some_distance_m};
 
 #[derive(Clone, Debug)]
 pub(super) struct FootprintGaps {
     ego: usize,
-    footprints: Vec<Footprint>,
+    footprints: Arc<[Footprint]>,
     /// Whether each vehicle is not on the road in this tick.
     absent: Vec<bool>,
+    /// Whether a measurement needs the distances; else there are none.
+    pub is_measured: bool,
     smallest_m: Option<f64>,
     closest: Option<Closest>,
 }
@@ -31,14 +35,21 @@ impl FootprintGaps {
     /// Measures before the first tick.
     pub fn new(scenario: &Scenario) -> Self {
         let footprint = |vehicle: &Vehicle| Footprint::new(&vehicle.body, vehicle.outline());
-        let footprints: Vec<Footprint> = scenario.vehicles.iter().map(footprint).collect();
+        let footprints: Arc<[Footprint]> = scenario.vehicles.iter().map(footprint).collect();
         let absent = vec![false; footprints.len()];
-        FootprintGaps { ego: scenario.ego_index(), footprints, absent, smallest_m: None, closest: None }
+        FootprintGaps {
+            ego: scenario.ego_index(),
+            footprints,
+            absent,
+            is_measured: true,
+            smallest_m: None,
+            closest: None,
+        }
     }
 
     /// The footprint of each vehicle.
-    pub fn footprints(&self) -> &[Footprint] {
-        &self.footprints
+    pub fn footprints(&self) -> Arc<[Footprint]> {
+        Arc::clone(&self.footprints)
     }
 
     /// Begins a tick in which some vehicles are not on the road; returns the ego's distance at its start \[m\], `None` without others.
@@ -51,6 +62,9 @@ impl FootprintGaps {
 
     /// Updates the distances at a time within the tick, given as the elapsed share of the tick.
     pub fn observe(&mut self, states: &[State], share: f64) {
+        if !self.is_measured {
+            return;
+        }
         let (Some(footprint), Some(state)) = (self.footprints.get(self.ego), states.get(self.ego)) else { return };
         let present = || {
             let all = self.footprints.iter().zip(states).enumerate();
@@ -113,9 +127,12 @@ pub(super) const MIN_STEP_TICKS: f64 = 1e-3;
 /// The longest step between two checks, in ticks, at any distance of the vehicles.
 const MAX_STEP_TICKS: f64 = 0.25;
 
+/// Vehicles that come no nearer than this share of the largest radius do not touch, for all that single precision changes.
+const MARGIN_RADII: f64 = 0.02;
+
 /// The motion of one vehicle during a tick.
-pub(super) struct Path {
-    pub footprint: Footprint,
+pub(super) struct Path<'a> {
+    pub footprint: &'a Footprint,
     /// Whether it is not on the road.
     pub is_absent: bool,
     /// State at the beginning of the tick.
@@ -124,7 +141,7 @@ pub(super) struct Path {
     pub to: State,
 }
 
-impl Path {
+impl Path<'_> {
     /// The state when a share of the tick has passed.
     pub fn at(&self, share: f64) -> State {
         self.from.towards(&self.to, share)
@@ -142,16 +159,31 @@ impl Path {
     }
 
     /// Upper bound of the decrease of the gap to another vehicle during the tick \[m\].
-    fn approach_m(&self, other: &Path) -> f64 {
-        let moved = |path: &Path| [path.to.x_m - path.from.x_m, path.to.y_m - path.from.y_m];
-        let swept = |path: &Path| (path.to.heading_rad - path.from.heading_rad).abs() * path.footprint.radius_m;
+    fn approach_m(&self, other: &Path<'_>) -> f64 {
+        let moved = |path: &Path<'_>| [path.to.x_m - path.from.x_m, path.to.y_m - path.from.y_m];
+        let swept = |path: &Path<'_>| (path.to.heading_rad - path.from.heading_rad).abs() * path.footprint.radius_m;
         let ([ax, ay], [bx, by]) = (moved(self), moved(other));
         ((ax - bx) * (ax - bx) + (ay - by) * (ay - by)).sqrt() + swept(self) + swept(other)
     }
 }
 
+/// Whether any two vehicles may touch during the tick: those that are no further apart at its start than they approach each other, and a
+/// margin for the single precision of the physics engine.
+pub(super) fn may_touch(paths: &[Path<'_>]) -> bool {
+    let circles: Vec<_> = paths.iter().map(|path| path.circle(&path.from)).collect();
+    let fastest_m = paths.iter().map(Path::moved_m).fold(0.0, f64::max);
+    let widest_m = paths.iter().map(|path| path.footprint.radius_m).fold(0.0, f64::max);
+    let margin_m = MARGIN_RADII * widest_m;
+    near_pairs(&circles, 2.0 * fastest_m + margin_m).into_iter().any(|[one, other]| {
+        let (a, b) = (&paths[one], &paths[other]);
+        let apart_m = separation_m((a.footprint, &a.from), (b.footprint, &b.from));
+        // A state that is not a number may touch all.
+        (apart_m - margin_m).partial_cmp(&a.approach_m(b)).is_none_or(std::cmp::Ordering::is_le)
+    })
+}
+
 /// The share of the tick at the next check, after one at `share`.
-pub(super) fn next_look(paths: &[Path], share: f64) -> f64 {
+pub(super) fn next_look(paths: &[Path<'_>], share: f64) -> f64 {
     let states: Vec<State> = paths.iter().map(|path| path.at(share)).collect();
     let mut step = MAX_STEP_TICKS;
     let circles: Vec<_> = paths.iter().zip(&states).map(|(path, state)| path.circle(state)).collect();
@@ -159,7 +191,7 @@ pub(super) fn next_look(paths: &[Path], share: f64) -> f64 {
     let fastest_m = paths.iter().map(Path::moved_m).fold(0.0, f64::max);
     for [one, other] in near_pairs(&circles, 2.0 * MAX_STEP_TICKS * fastest_m) {
         let (a, b) = (&paths[one], &paths[other]);
-        let (a_now, b_now) = ((&a.footprint, &states[one]), (&b.footprint, &states[other]));
+        let (a_now, b_now) = ((a.footprint, &states[one]), (b.footprint, &states[other]));
         let approach = a.approach_m(b);
         if least_gap_m(a_now, b_now) >= step * approach {
             continue;
@@ -171,4 +203,48 @@ pub(super) fn next_look(paths: &[Path], share: f64) -> f64 {
         }
     }
     (share + step.max(MIN_STEP_TICKS)).min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use interplay_planners::Body;
+
+    use super::*;
+
+    /// Footprints that may not touch are apart at every time of the tick, and most that are far apart may not.
+    #[test]
+    fn vehicles_that_may_not_touch_do_not() {
+        let footprint = Footprint::new(&Body::default(), None);
+        let mut spared = 0;
+        for case in 0..2000 {
+            let share = |prime: usize| (case * prime % 1999) as f64 / 1999.0;
+            let from = |primes: [usize; 3]| State {
+                x_m: share(primes[0]),
+                y_m: 0.6 * share(primes[1]),
+                heading_rad: 6.3 * share(primes[2]),
+                speed_mps: 1.0,
+            };
+            let path = |from: State, primes: [usize; 3]| Path {
+                footprint: &footprint,
+                is_absent: false,
+                from,
+                to: State {
+                    x_m: from.x_m + 0.3 * share(primes[0]) - 0.15,
+                    y_m: from.y_m + 0.3 * share(primes[1]) - 0.15,
+                    heading_rad: from.heading_rad + 0.2 * share(primes[2]) - 0.1,
+                    ..from
+                },
+            };
+            let paths = [path(from([13, 29, 41]), [53, 67, 71]), path(from([83, 97, 101]), [113, 127, 131])];
+            if may_touch(&paths) {
+                continue;
+            }
+            spared += 1;
+            for part in 0..=100 {
+                let [a, b] = [0, 1].map(|index| paths[index].at(0.01 * f64::from(part)));
+                assert!(distance_m((&footprint, &a), (&footprint, &b)) > 1e-3, "{a:?} {b:?}");
+            }
+        }
+        assert!((200..1900).contains(&spared), "{spared}");
+    }
 }

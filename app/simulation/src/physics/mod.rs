@@ -31,7 +31,7 @@ pub(crate) use footprint::radius_m;
 pub(crate) use near_pairs::near_pairs;
 pub use time_to_collision::{MovingFootprint, time_to_collision_s};
 
-use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Fleet};
+use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Fleet, MeasuredParts};
 use crate::state::frame::{Collision, Event, Level, PairGap};
 use contacts::{Contact, Moving};
 use dynamic::DynamicPlant;
@@ -137,19 +137,22 @@ pub fn step(
     mut physics: ResMut<Physics>,
     mut clock: ResMut<Clock>,
     mut current_frame: ResMut<CurrentFrame>,
+    measured: Res<MeasuredParts>,
 ) {
     let (frame, road_users) = (&mut current_frame.0, &mut traffic.0.road_users);
     let Physics { world, dynamic, gaps } = &mut *physics;
-    let moving = |((user, entity), footprint): ((&RoadUser, &Entity), &Footprint)| Moving {
+    gaps.is_measured = measured.gaps;
+    let footprints = gaps.footprints();
+    let moving = |((user, entity), footprint): ((&RoadUser, &Entity), _)| Moving {
         handle: bodies.get(*entity).map_or_else(|_| RigidBodyHandle::invalid(), |body| body.0),
         body: user.agent.body,
-        footprint: footprint.clone(),
+        footprint,
         state: user.agent.state,
         input: user.agent.previous_input,
         is_absent: user.is_absent(),
         recorded: recorded(user, clock.within_s(1.0)),
     };
-    let moving: Vec<Moving> = road_users.iter().zip(&fleet.0).zip(gaps.footprints()).map(moving).collect();
+    let moving: Vec<Moving<'_>> = road_users.iter().zip(&fleet.0).zip(&*footprints).map(moving).collect();
     let before: Vec<State> = moving.iter().map(|vehicle| vehicle.state).collect();
     frame.gap_m = gaps.begin(&before, moving.iter().map(|vehicle| vehicle.is_absent).collect());
     let (states, contacts) = match dynamic {

@@ -7,6 +7,7 @@ use interplay_scenarios::from_text;
 
 use super::gap::MIN_STEP_TICKS;
 use super::step;
+use crate::measure::Subscriptions;
 use crate::simulation::world_state::WorldState;
 use crate::state::components::{CurrentFrame, CurrentTraffic};
 use crate::state::frame::Collision;
@@ -33,7 +34,8 @@ fn roll(starts: [State; 2], ticks: usize) -> (Vec<Collision>, f64) {
     for (vehicle, start) in scenario.vehicles.iter_mut().zip(starts) {
         vehicle.start = start;
     }
-    let mut world = WorldState::initial(&scenario).expect("no building").into_world(Vec::new());
+    let mut world =
+        WorldState::initial(&scenario, &Subscriptions::everything()).expect("no building").into_world(Vec::new());
     let mut smallest_m = f64::INFINITY;
     for _ in 0..ticks {
         world.run_system_once(step).expect("physics runs");

@@ -8,11 +8,13 @@ use interplay_scenarios::Scenario;
 
 use super::Simulation;
 use super::extensions::Extensions;
+use crate::measure::Subscriptions;
 use crate::phases::Slot;
 use crate::phases::time_points::TimePoints;
 use crate::phases::watch::Watcher;
 use crate::simulation::run_error::RunError;
 use crate::simulation::world_state::WorldState;
+use crate::state::components::DecidingThreads;
 
 /// Builds a [`Simulation`] to which a caller adds systems, state and watchers.
 ///
@@ -42,6 +44,8 @@ pub struct SimulationBuilder<'a> {
     name: String,
     scenario: &'a Scenario,
     watchers: Vec<Box<dyn Watcher>>,
+    subscriptions: Subscriptions,
+    threads: usize,
     extensions: Extensions,
     initial: World,
 }
@@ -53,6 +57,8 @@ impl Simulation {
             name: scenario.title.clone(),
             scenario,
             watchers: Vec::new(),
+            subscriptions: Subscriptions::everything(),
+            threads: 1,
             extensions: Extensions::default(),
             initial: World::new(),
         }
@@ -71,6 +77,21 @@ impl SimulationBuilder<'_> {
     #[must_use]
     pub fn with_watchers(mut self, watchers: Vec<Box<dyn Watcher>>) -> Self {
         self.watchers.extend(watchers);
+        self
+    }
+
+    /// Measures only what these subscriptions name.
+    #[must_use]
+    pub fn subscribed_to(mut self, subscriptions: Subscriptions) -> Self {
+        self.subscriptions = subscriptions;
+        self
+    }
+
+    /// Lets vehicles decide on several threads where their decisions do not depend on each other. The run has the same bits with any
+    /// number; with 1, which is the default, everything happens on the thread of the caller.
+    #[must_use]
+    pub fn with_threads(mut self, threads: usize) -> Self {
+        self.threads = threads;
         self
     }
 
@@ -101,11 +122,16 @@ impl SimulationBuilder<'_> {
     ///
     /// # Errors
     /// [`RunError::Building`] if the scenario's building cannot be built; [`RunError::Loop`] if the order of two systems is ambiguous;
-    /// [`RunError::UnknownState`] if a system names a component or resource that the world does not have.
+    /// [`RunError::Threads`] if the system has no threads; [`RunError::UnknownState`] if a system names a component or resource that the
+    /// world does not have.
     pub fn build(self) -> Result<Simulation, RunError> {
         let began = Instant::now();
-        let SimulationBuilder { name, scenario, watchers, extensions, initial } = self;
-        let mut world = WorldState::initial(scenario)?.into_world(watchers);
+        let SimulationBuilder { name, scenario, watchers, subscriptions, threads, extensions, initial } = self;
+        let mut world = WorldState::initial(scenario, &subscriptions)?.into_world(watchers);
+        if threads > 1 {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            world.insert_resource(DecidingThreads(Some(Arc::new(pool.map_err(RunError::Threads)?))));
+        }
         extensions.copy_states(&initial, &mut world);
         let clocks = TimePoints::new(scenario);
         let mut simulation = Simulation::assembled(name, Arc::new(scenario.clone()), clocks, world, extensions)?;

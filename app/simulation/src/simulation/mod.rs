@@ -28,7 +28,9 @@ use crate::climate::Building;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
 use crate::simulation::run_error::RunError;
-use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, to_nanosecond};
+use crate::state::components::{
+    Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, SpareFrames, to_nanosecond,
+};
 use crate::state::detail::{LevelOfDetail, NotCopied};
 use crate::state::frame::Frame;
 
@@ -141,7 +143,10 @@ impl Simulation {
         let tick = self.time_points.passed();
         self.time_points = ahead;
         let frame = Frame { tick, time_s: time_point.time_s, ..Frame::default() };
-        self.world.resource_mut::<CurrentFrame>().0 = frame;
+        let last = std::mem::replace(&mut self.world.resource_mut::<CurrentFrame>().0, frame);
+        if !last.vehicles.is_empty() {
+            self.world.resource_mut::<SpareFrames>().0 = last.vehicles;
+        }
         self.world.insert_resource(time_point);
         self.schedule.run(&mut self.world);
         self.wall_s += began.elapsed().as_secs_f64();

@@ -12,6 +12,9 @@ pub enum RunError {
     /// A watcher failed.
     #[error("{0}")]
     Watch(WatchError),
+    /// The threads on which vehicles decide cannot be started.
+    #[error("cannot start the threads on which vehicles decide: {0}")]
+    Threads(rayon::ThreadPoolBuildError),
     /// The building cannot be built.
     #[error("the building cannot be simulated: {0}")]
     Building(#[from] BuildingError),

@@ -77,6 +77,7 @@ fn road_user(scenario: &Scenario, vehicle: &Vehicle, state: State) -> RoadUser {
         indicator: None,
         rules: RoadRules::default(),
         urgency: 1.0,
+        own_place: Default::default(),
     };
     // Wheels that take time to turn are turned along the road at the start.
     if agent.limits.steering_rate_max_radps.is_some() {
@@ -88,6 +89,7 @@ fn road_user(scenario: &Scenario, vehicle: &Vehicle, state: State) -> RoadUser {
         reaction_s: vehicle.driver.reaction_s(),
         patience_s: vehicle.driver.patience_s(),
         decides: vehicle.driver.is_vetoed(),
+        may_react: vehicle.driver.reacts() && vehicle.sensing.is_none(),
         keeps_rules: vehicle.keeps_rules(),
         presence: vehicle.stay.presence_at_start(),
         stay: vehicle.stay,

@@ -8,12 +8,14 @@ use interplay_planners::traffic::Traffic;
 use interplay_scenarios::Scenario;
 
 use crate::climate::{Building, BuildingError, ClimateState, Equipment, Gains, Node, NodeState, Temperature};
-use crate::measure::{BuildingMeasures, Measures};
+use crate::measure::{BuildingMeasures, Measures, Subscriptions};
 use crate::phases::time_points::TimePoint;
 use crate::phases::watch::{Watcher, Watchers};
 use crate::physics::{Physics, VehicleBody};
 use crate::simulation::spawn::{self, VehicleState};
-use crate::state::components::{Clock, CurrentFrame, CurrentTraffic, Driving, Fleet, HandedIn, Identity, TrafficRow};
+use crate::state::components::{
+    Clock, CurrentFrame, CurrentTraffic, DecidingThreads, Driving, Fleet, HandedIn, Identity, SpareFrames, TrafficRow,
+};
 use crate::state::detail::NotCopied;
 
 /// All state of a world, except watchers.
@@ -39,11 +41,11 @@ pub struct WorldState {
 }
 
 impl WorldState {
-    /// The state in which a run of `scenario` begins.
+    /// The state in which a run of `scenario` begins that measures what it subscribes to.
     ///
     /// # Errors
     /// [`BuildingError`], if the building was not checked when it was loaded, or its plant does not answer.
-    pub fn initial(scenario: &Scenario) -> Result<Self, BuildingError> {
+    pub fn initial(scenario: &Scenario, subscriptions: &Subscriptions) -> Result<Self, BuildingError> {
         let mut physics = Physics::new(scenario);
         let vehicles = spawn::vehicles(scenario, &mut physics);
         let climate = ClimateState::initial(scenario)?;
@@ -74,7 +76,7 @@ impl WorldState {
             time_point: TimePoint { time_s: 0.0, vehicles: true, building: false },
             traffic,
             current_frame: CurrentFrame::default(),
-            measures: Measures::new(scenario),
+            measures: Measures::new(scenario, subscriptions),
             physics,
             building: building.map(measured),
         })
@@ -138,9 +140,12 @@ impl WorldState {
         world.insert_resource(self.time_point);
         world.insert_resource(self.traffic);
         world.insert_resource(self.current_frame);
+        world.insert_resource(self.measures.parts());
         world.insert_resource(self.measures);
         world.insert_resource(self.physics);
         world.insert_resource(Watchers::new(watchers));
+        world.insert_resource(DecidingThreads::default());
+        world.insert_resource(SpareFrames::default());
         if let Some((building, measures)) = self.building {
             world.insert_resource(building);
             world.insert_resource(measures);

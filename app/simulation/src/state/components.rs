@@ -1,12 +1,14 @@
 //! Components of vehicles, and resources of a world.
 
+use std::sync::Arc;
+
 use bevy_ecs::prelude::*;
 use interplay_planners::perception::sensing::{Sensor, Sight};
 use interplay_planners::traffic::{RoadUser, Traffic};
 use interplay_planners::{Input, Planner};
 
 use crate::state::detail::{LevelOfDetail, NotCopied};
-use crate::state::frame::Frame;
+use crate::state::frame::{Frame, VehicleFrame};
 
 /// The name of a vehicle.
 #[derive(Component, Clone, Debug)]
@@ -42,6 +44,11 @@ pub struct Driving {
 }
 
 impl Driving {
+    /// Whether the driver may be asked for an input at the next plan, given what is handed in from outside.
+    pub fn may_react(&self, handed_in: &HandedIn) -> bool {
+        *handed_in == HandedIn::NotExternal && self.planner.reacts() && self.sensor.is_none()
+    }
+
     /// A copy with the same memory, for the driver of the vehicle called `name`.
     ///
     /// # Errors
@@ -135,6 +142,23 @@ pub fn to_nanosecond(time_s: f64) -> f64 {
 /// All vehicles as plain values, in the scenario's order.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct CurrentTraffic(pub Traffic);
+
+/// The parts of a tick that are made only if they are measured.
+#[derive(Resource, Clone, Copy, Debug)]
+pub struct MeasuredParts {
+    /// The distances between footprints.
+    pub gaps: bool,
+    /// The plans of vehicles that have reacted.
+    pub plans: bool,
+}
+
+/// The vehicles of the last frame, whose memory the next frame uses again.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct SpareFrames(pub Vec<VehicleFrame>);
+
+/// The threads on which vehicles decide whose decisions do not depend on each other; none decide on the thread of the world.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct DecidingThreads(pub Option<Arc<rayon::ThreadPool>>);
 
 /// The entity of every vehicle, in the scenario's order.
 #[derive(Resource, Clone, Debug, Default)]

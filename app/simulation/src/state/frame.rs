@@ -120,23 +120,22 @@ pub struct VehicleFrame {
 }
 
 impl VehicleFrame {
-    /// A row of the traffic after its decision and before it moves; `plan_ms` is the wall time of its plan \[ms\].
-    pub(crate) fn of(traffic: &Traffic, row: usize, plan_ms: f64) -> Self {
+    /// Becomes a row of the traffic after its decision and before it moves; `plan_ms` is the wall time of its plan \[ms\]. The name and
+    /// lists are written only where they differ from those of the last tick.
+    pub(crate) fn become_row(&mut self, traffic: &Traffic, row: usize, plan_ms: f64) {
         let user = &traffic.road_users[row];
         let agent = &user.agent;
-        VehicleFrame {
-            name: agent.name.clone(),
-            is_absent: user.is_absent(),
-            state: agent.state,
-            input: if user.is_absent() { Input::default() } else { agent.previous_input },
-            plan: Arc::clone(&user.plan),
-            origin: user.origin,
-            prediction: Arc::clone(traffic.expected_of(row)),
-            indicator: agent.indicator,
-            rules: agent.rules.clone(),
-            urgency: agent.urgency,
-            plan_ms,
+        if self.name != agent.name {
+            self.name.clone_from(&agent.name);
         }
+        if self.rules != agent.rules {
+            self.rules = agent.rules.clone();
+        }
+        (self.is_absent, self.state, self.origin) = (user.is_absent(), agent.state, user.origin);
+        self.input = if user.is_absent() { Input::default() } else { agent.previous_input };
+        self.plan.clone_from(&user.plan);
+        self.prediction.clone_from(traffic.expected_of(row));
+        (self.indicator, self.urgency, self.plan_ms) = (agent.indicator, agent.urgency, plan_ms);
     }
 
     /// The cost of the plan; `None` for a plan that was not chosen by cost.

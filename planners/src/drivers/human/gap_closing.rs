@@ -24,7 +24,7 @@ fn cuts_in(scene: &Scene, other: &Agent) -> bool {
     if own.crosses(other) || own.shares_lane_with(other) || is_behind {
         return false;
     }
-    let lateral = own.route.across(own.state.position());
+    let lateral = own.across_m();
     let reach = 0.5 * (own.body.width_m + other.body.width_m);
     let predicted = steadily_along(&other.route, &other.body, &other.state, scene.horizon, scene.step_s);
     predicted.states.iter().any(|state| (own.route.across(state.position()) - lateral).abs() < reach)

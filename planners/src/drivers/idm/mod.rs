@@ -8,6 +8,7 @@ mod car_following;
 pub mod diagnostics;
 mod mobil;
 mod motion;
+mod reacting;
 mod settings;
 
 pub use settings::{Mobil, Settings};
@@ -19,14 +20,17 @@ use serde_json::{Map, Value as Json, json};
 use crate::drivers::drive::StandardReplacement;
 use crate::drivers::drive::{Drive, DriverKind, settings_of};
 use crate::drivers::lanes::{RoadLanes, leader};
+use crate::drivers::reaction::Reaction;
 use crate::road::network::{ConflictKind, Precedence, RouteConflict};
 use crate::rules::obstacle::ObstacleMemory;
 use crate::rules::right_of_way::ArrivalMemory;
+use crate::scene::Moment;
 use crate::scene::inferred_futures::InferredFutures;
 use crate::scene::relation::{Relation, is_on_strip};
 use crate::scene::road_rules::Obstacle;
 use crate::{Agent, Plan, PlanError, PlanEvent, PlanTime, Scene};
 use diagnostics::{GAP, INCENTIVE, LANE};
+use mobil::{Changing, LanesOfScene};
 use motion::Motion;
 
 /// Free space beside what stands, for 1/10 scale cars \[m\].
@@ -98,6 +102,10 @@ impl DriverKind for Settings {
         false
     }
 
+    fn reacts(&self) -> bool {
+        true
+    }
+
     /// The values of the literature (Treiber, Hennecke and Helbing, 2000; for lane changes Kesting, Treiber and Helbing, 2007).
     fn people_defaults(&self) -> Map<String, Json> {
         let Settings { headway_s, gap_m, acceleration_mps2, braking_mps2, .. } = Settings::literature();
@@ -146,7 +154,8 @@ impl Drive for Idm {
         let minded = with_others(&whole, is_minded);
         let lanes = RoadLanes::of_road(&minded, self.settings.mobil.lane_width_m);
         let now = self.lane(&minded, &lanes);
-        let choice = mobil::choose(&minded, &scene.others, &self.settings, now);
+        let seen_lanes = LanesOfScene { scene: &minded, others: &scene.others, lanes: &lanes };
+        let choice = mobil::choose(&Changing::of(&minded), &self.settings, &lanes, now, &seen_lanes);
         self.lane_centre_m = Some(lanes.centre_m(choice.lane));
         let line_m = seen.ego.rules.stop_line_m;
         let from_to = [now, choice.lane];
@@ -154,21 +163,22 @@ impl Drive for Idm {
         let owed = minded.others.iter().any(joins).then(|| with_others(&minded, |other| !joins(other)));
         let motion = Motion {
             settings: &self.settings,
-            scene: &minded,
-            owed: owed.as_deref(),
+            own: &minded.ego,
+            wanted_mps: minded.goal.target.speed_mps,
+            step_s: minded.step_s,
             lanes,
             from_to,
             line_m,
             passed: passed.as_ref(),
         };
-        let mut trajectory = motion.driven();
+        let mut trajectory = motion.driven(&minded, owed.as_deref());
         // Who has begun to pass goes on unless it would touch.
         let spaces = |obstacle: &Obstacle| if was_passing.as_ref() == Some(&obstacle.name) { 0.0 } else { 1.0 };
         let is_touched = |obstacle: &&Obstacle| obstacle.is_touched_by(&whole, &trajectory, spaces(obstacle));
         if let Some(obstacle) = passed.as_ref().filter(is_touched) {
             let behind_m = obstacle.line_m(&whole);
             let line_m = Some(line_m.map_or(behind_m, |line_m: f64| line_m.min(behind_m)));
-            trajectory = Motion { scene: &whole, owed: None, line_m, passed: None, ..motion }.driven();
+            trajectory = Motion { line_m, passed: None, ..motion }.driven(&whole, None);
         }
         let ahead = leader(&minded, &lanes, choice.lane, &minded.ego.state, 0);
         let mut diagnostics = vec![LANE.is(choice.lane as f64), INCENTIVE.is(choice.incentive_mps2)];
@@ -178,6 +188,12 @@ impl Drive for Idm {
             .into_iter()
             .collect();
         Ok(Plan { trajectory, diagnostics, events, ..Plan::default() })
+    }
+
+    fn react(&mut self, moment: &Moment<'_>) -> Option<Reaction> {
+        let (reaction, lane_m) = reacting::answer(&self.settings, self.lane_centre_m, moment)?;
+        self.lane_centre_m = Some(lane_m);
+        Some(reaction)
     }
 
     fn fork(&self) -> Option<Box<dyn Drive>> {

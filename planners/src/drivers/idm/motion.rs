@@ -1,12 +1,11 @@
 //! The motion of a driver who has chosen a lane.
 
 use super::Settings;
-use crate::drivers::lanes::Leader;
-use crate::drivers::lanes::{RoadLanes, leader};
+use crate::drivers::lanes::{Leader, RoadLanes, leader};
 use crate::prediction::steering::{admissible, roll_out, steer, steer_over_step};
 use crate::rules::obstacle::swing_m;
 use crate::scene::road_rules::Obstacle;
-use crate::{Input, Scene, State, Trajectory};
+use crate::{Agent, Input, Scene, State, Trajectory};
 
 /// Way that the steering law needs to change its lateral place, as a multiple of a planner's.
 const SWINGS: f64 = 3.0;
@@ -26,12 +25,12 @@ const COURTESY_MPS: f64 = 3.0;
 const MERGING_S: f64 = 1.5;
 
 /// How a driver drives.
+#[derive(Clone, Copy)]
 pub(super) struct Motion<'a> {
     pub settings: &'a Settings,
-    /// The vehicles that it follows: all on the same road except those that it passes.
-    pub scene: &'a Scene,
-    /// The same without those who have to let it go first and are not in its lane yet, if there are any.
-    pub owed: Option<&'a Scene>,
+    pub own: &'a Agent,
+    pub wanted_mps: f64,
+    pub step_s: f64,
     pub lanes: RoadLanes,
     /// The lane it is in, and the one it drives in or changes to.
     pub from_to: [usize; 2],
@@ -41,38 +40,60 @@ pub(super) struct Motion<'a> {
 }
 
 impl Motion<'_> {
-    /// The motion over the horizon of the scene.
-    pub fn driven(&self) -> Trajectory {
-        let (own, step_s) = (&self.scene.ego, self.scene.step_s);
-        let swing_m = SWINGS * swing_m(self.scene, self.scene.ego.state.speed_mps);
-        let edge_m = own.rules.drives_at_m.filter(|_| own.rules.evades.is_some());
-        let lane_m = edge_m.unwrap_or_else(|| self.lanes.centre_m(self.from_to[1]));
-        let mut before = own.previous_input;
-        roll_out(self.scene, |t, state| {
-            // Straight roads have neither lines nor speed limits.
-            let along_m = own.route.straight().is_none().then(|| own.route.along(state.position()));
-            let front_m = along_m.map(|along_m| along_m + own.body.front_m);
-            let passed = self.passed.zip(front_m);
-            let beside_m =
-                |(obstacle, front_m): (&Obstacle, f64)| obstacle.lateral_m(front_m, lane_m, swing_m) - lane_m;
-            let lateral_m = lane_m + AIM * passed.map_or(0.0, beside_m);
-            let steering_rad = match along_m {
-                None => steer(own, state, lateral_m),
-                Some(_) => steer_over_step(own, state, lateral_m, step_s),
+    /// The motion over the horizon of a scene, whose others it follows; `owed` is the same without those who have to let it go first and are
+    /// not in its lane yet, if there are any.
+    pub fn driven(&self, scene: &Scene, owed: Option<&Scene>) -> Trajectory {
+        let mut before = self.own.previous_input;
+        roll_out(scene, |t, state| {
+            // In the lane that it leaves it minds the vehicle ahead until it is out of it.
+            let [from, to] = self.from_to;
+            let ahead = |scene: &Scene| {
+                let taken = leader(scene, &self.lanes, to, state, t);
+                [if from == to { taken } else { leader(scene, &self.lanes, from, state, t) }, taken]
             };
-            let wanted = Input { acceleration_mps2: self.acceleration_mps2(t, state, along_m), steering_rad };
-            let Input { acceleration_mps2, steering_rad } = own.comfortably(&before, wanted, state.speed_mps, step_s);
-            before = Input { acceleration_mps2: admissible(own, state, acceleration_mps2, step_s), steering_rad };
+            before = self.input(state, &before, ahead(scene), owed.map(ahead));
             before
         })
     }
 
-    /// What the model wants behind the vehicle ahead, within what is permitted.
-    fn acceleration_mps2(&self, t: usize, state: &State, along_m: Option<f64>) -> f64 {
-        let Motion { settings, scene, lanes, from_to, .. } = self;
-        let (own, wanted_mps) = (&scene.ego, scene.goal.target.speed_mps);
-        // In the lane that it leaves it minds the vehicle ahead until it is out of it.
-        let [from, to] = *from_to;
+    /// The input at a state after another one, behind what is ahead in the lane that it leaves and in the one that it takes; `owed` is what
+    /// would be ahead without those who have to let it go first.
+    pub fn input(
+        &self,
+        state: &State,
+        before: &Input,
+        ahead: [Option<Leader>; 2],
+        owed: Option<[Option<Leader>; 2]>,
+    ) -> Input {
+        let (own, step_s) = (self.own, self.step_s);
+        let edge_m = own.rules.drives_at_m.filter(|_| own.rules.evades.is_some());
+        let lane_m = edge_m.unwrap_or_else(|| self.lanes.centre_m(self.from_to[1]));
+        // Straight roads have neither lines nor speed limits.
+        let along_m = own.route.straight().is_none().then(|| own.route.along(state.position()));
+        let passed = self.passed.zip(along_m.map(|along_m| along_m + own.body.front_m));
+        let beside_m = |(obstacle, front_m): (&Obstacle, f64)| {
+            let swing_m = SWINGS * swing_m(own, own.state.speed_mps);
+            obstacle.lateral_m(front_m, lane_m, swing_m) - lane_m
+        };
+        let lateral_m = lane_m + AIM * passed.map_or(0.0, beside_m);
+        let steering_rad = match along_m {
+            None => steer(own, state, lateral_m),
+            Some(_) => steer_over_step(own, state, lateral_m, step_s),
+        };
+        let wanted = Input { acceleration_mps2: self.acceleration_mps2(state, along_m, ahead, owed), steering_rad };
+        let Input { acceleration_mps2, steering_rad } = own.comfortably(before, wanted, state.speed_mps, step_s);
+        Input { acceleration_mps2: admissible(own, state, acceleration_mps2, step_s), steering_rad }
+    }
+
+    /// What the model wants behind the vehicles ahead, within what is permitted.
+    fn acceleration_mps2(
+        &self,
+        state: &State,
+        along_m: Option<f64>,
+        ahead: [Option<Leader>; 2],
+        owed: Option<[Option<Leader>; 2]>,
+    ) -> f64 {
+        let Motion { settings, own, wanted_mps, .. } = *self;
         let line = self.line_m.zip(along_m);
         let line = line.map(|(line_m, along_m)| Leader { gap_m: line_m - along_m - own.body.front_m, speed_mps: 0.0 });
         // Brakes take hold only after a while where jerk is bounded: a lower limit ahead counts already.
@@ -85,13 +106,11 @@ impl Motion<'_> {
         let permitted_mps =
             places_m.and_then(|places_m| least(places_m.map(|along_m| own.permitted_speed_mps(along_m))));
         let wanted_mps = permitted_mps.map_or(wanted_mps, |permitted_mps| permitted_mps.min(wanted_mps));
-        let among = |scene: &Scene| {
-            let taken = leader(scene, lanes, to, state, t);
-            let left = if from == to { taken } else { leader(scene, lanes, from, state, t) };
+        let among = |[left, taken]: [Option<Leader>; 2]| {
             settings.acceleration(state.speed_mps, wanted_mps, nearest([left, taken, line]))
         };
-        let acceleration = among(scene);
-        let acceleration = self.owed.map_or(acceleration, |owed| {
+        let acceleration = among(ahead);
+        let acceleration = owed.map_or(acceleration, |owed| {
             let alone = among(owed);
             let lost_mps = wanted_mps - state.speed_mps;
             let is_slow = lost_mps > COURTESY_MPS * own.body.real_ratio().sqrt();
@@ -102,7 +121,7 @@ impl Motion<'_> {
             own.merging_speed_mps().map(|mps| (mps - state.speed_mps) / (MERGING_S * own.body.real_ratio().sqrt()));
         let acceleration = merging_mps2.map_or(acceleration, |merging_mps2| acceleration.min(merging_mps2));
         // On a free road the model brakes too weakly for a limit ahead.
-        let highest = |along_m: f64| own.permitted_acceleration_mps2(along_m, state.speed_mps, scene.step_s);
+        let highest = |along_m: f64| own.permitted_acceleration_mps2(along_m, state.speed_mps, self.step_s);
         let highest_mps2 = places_m.and_then(|places_m| least(places_m.map(highest)));
         highest_mps2.map_or(acceleration, |highest_mps2| acceleration.min(highest_mps2))
     }

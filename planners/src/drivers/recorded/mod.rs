@@ -71,6 +71,11 @@ impl DriverKind for Settings {
         true
     }
 
+    /// Who takes over may plan.
+    fn reacts(&self) -> bool {
+        self.hands_over.is_none()
+    }
+
     fn can_be_asked(&self) -> bool {
         false
     }

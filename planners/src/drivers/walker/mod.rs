@@ -95,7 +95,7 @@ impl Drive for Walker {
         let stands_at_m = if has_begun { line_m.reduce(f64::min) } else { Some(front_m(own)) };
         let room_m = stands_at_m.map(|line_m| line_m - front_m(own)).into_iter().chain(room_behind_m(scene));
         let room_m = room_m.reduce(f64::min);
-        let begin_m = own.route.along(own.state.position());
+        let begin_m = own.along_m();
         let across_m = own.route.across(scene.goal.target.position());
         let trajectory = roll_out(scene, |_, state| {
             let left_m = room_m.map(|room_m| room_m - (own.route.along(state.position()) - begin_m));

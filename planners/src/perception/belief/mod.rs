@@ -200,7 +200,7 @@ fn move_on(agent: &mut Agent) {
 
 /// The order in which drivers plan: from the front of the road to its rear.
 fn from_front_to_rear(agents: &[Agent]) -> Vec<usize> {
-    let along_m: Vec<f64> = agents.iter().map(|agent| agent.route.along(agent.state.position())).collect();
+    let along_m: Vec<f64> = agents.iter().map(|agent| agent.along_m()).collect();
     let mut order: Vec<usize> = (0..agents.len()).collect();
     order.sort_by(|a, b| along_m[*b].total_cmp(&along_m[*a]));
     order

@@ -78,7 +78,7 @@ fn relative_speed_mps(one: &State, other: &State) -> f64 {
 /// Simple motions that need no planner: from full braking to full acceleration, straight on or to a lateral position.
 pub fn last_resorts(scene: &Scene) -> impl Iterator<Item = Trajectory> {
     let (ego, limits) = (&scene.ego, scene.ego.limits);
-    let here_m = ego.route.across(ego.state.position());
+    let here_m = ego.across_m();
     let accelerations = ACCELERATION_SHARES
         .map(|share| share * if share < 0.0 { -limits.acceleration_min_mps2 } else { limits.acceleration_max_mps2 });
     let straight_on = accelerations.into_iter().map(|mps2| taken(scene, steady_inputs(scene, mps2)));

@@ -83,8 +83,7 @@ impl ObstacleMemory {
             self.passing = None;
             return None;
         };
-        let out_m =
-            scene.ego.route.across(scene.ego.state.position()) - scene.ego.route.across(scene.goal.target.position());
+        let out_m = scene.ego.across_m() - scene.ego.route.across(scene.goal.target.position());
         let is_out = out_m.abs() > OUT_OF_LANE_M * scene.ego.body.scale;
         // A driver that has begun to pass a row goes on to its next vehicle. Nor does it come back when a slow vehicle that it overtakes
         // stops.
@@ -128,10 +127,10 @@ impl ObstacleMemory {
     /// The nearest obstacle whose end is not passed yet.
     fn nearest(&self, scene: &Scene) -> Option<Obstacle> {
         let ego = &scene.ego;
-        let (own_m, wanted_mps) = (ego.route.along(ego.state.position()), scene.goal.target.speed_mps);
+        let (own_m, wanted_mps) = (ego.along_m(), scene.goal.target.speed_mps);
         let reach_m = LOOK_AHEAD_S * ego.body.time_ratio() * wanted_mps.max(ego.state.speed_mps) + ego.body.front_m;
         let goal_m = ego.route.across(scene.goal.target.position());
-        let here_m = ego.route.across(ego.state.position());
+        let here_m = ego.across_m();
         // Straight roads have no lanes that belong to others: of what stands there, only what has no driver is passed by these rules.
         let counts = |other: &&Agent| other.is_obstacle || ego.route.is_in_network();
         let standing = scene.others.iter().filter(counts).filter(|other| is_standing(other));

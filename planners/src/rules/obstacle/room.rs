@@ -35,12 +35,12 @@ pub(super) fn in_the_way<'a>(
     is_under_way: bool,
 ) -> Option<&'a Agent> {
     let ego = &scene.ego;
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     let room_m = obstacle.along_m[0] - own_m - ego.body.front_m;
     if is_under_way && ego.state.speed_mps * ego.state.speed_mps > 2.0 * STOPPING_MPS2 * room_m {
         return None;
     }
-    let swing_m = swing_m(scene, ego.state.speed_mps);
+    let swing_m = swing_m(ego, ego.state.speed_mps);
     // From where the driver leaves its lane to where its rear is back in it.
     let zone_m = [(obstacle.along_m[0] - swing_m).max(own_m), end_m + swing_m + ego.body.rear_m];
     let spare_s = if is_under_way { SPARE_UNDER_WAY_S } else { SPARE_S } * ego.body.time_ratio();
@@ -62,7 +62,7 @@ fn leaves_its_lane_first(scene: &Scene, other: &Agent, zone_m: [f64; 2], room_m:
         return false;
     }
     let front_m = at.along_m - other.body.front_m;
-    let swing_m = swing_m(scene, other.state.speed_mps);
+    let swing_m = swing_m(&scene.ego, other.state.speed_mps);
     let nearest = scene.others.iter().filter(|third| is_parked(third)).filter_map(|third| {
         let place = ego.route.locate(third.state.position(), None);
         let reach_m = 0.5 * (other.body.width_m + third.body.width_m);
@@ -87,7 +87,7 @@ fn is_parked(other: &Agent) -> bool {
 pub(super) fn with_row(scene: &Scene, obstacle: Obstacle) -> Obstacle {
     let ego = &scene.ego;
     let length_m = ego.body.front_m + ego.body.rear_m;
-    let room_m = swing_m(scene, SPEED_SHARE * scene.goal.target.speed_mps) + (1.0 + WAITING_LENGTHS) * length_m;
+    let room_m = swing_m(&scene.ego, SPEED_SHARE * scene.goal.target.speed_mps) + (1.0 + WAITING_LENGTHS) * length_m;
     let standing = scene.others.iter().filter(|other| is_standing(other)).filter_map(|other| {
         let at = ego.route.locate(other.state.position(), None);
         let is_in_row = (at.across_m - obstacle.across_m).abs() < 0.5 * (ego.body.width_m + other.body.width_m);
@@ -140,12 +140,12 @@ fn comes_into(scene: &Scene, other: &Agent, obstacle: &Obstacle, zone_m: [f64; 2
     let half_m = other.body.front_m.max(other.body.rear_m);
     let ends_m = [at.along_m, at.along_m + along_mps * until_s];
     let covered_m = [ends_m[0].min(ends_m[1]) - half_m, ends_m[0].max(ends_m[1]) + half_m];
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     if !ego.route.is_in_network() && along_mps >= 0.0 {
         return leaves_no_gap(scene, other, at.along_m, along_mps, zone_m[0]);
     }
     // A vehicle behind in the own lane waits as well, and one that drives ahead in the same direction leaves.
-    let is_behind = at.along_m < own_m && (at.across_m - ego.route.across(ego.state.position())).abs() < reach_m;
+    let is_behind = at.along_m < own_m && (at.across_m - ego.across_m()).abs() < reach_m;
     let leaves = along_mps > ego.state.speed_mps && at.along_m > zone_m[1];
     covered_m[1] > zone_m[0] && covered_m[0] < zone_m[1] && !is_behind && !leaves
 }
@@ -155,8 +155,8 @@ fn comes_into(scene: &Scene, other: &Agent, obstacle: &Obstacle, zone_m: [f64; 2
 fn leaves_no_gap(scene: &Scene, other: &Agent, along_m: f64, along_mps: f64, from_m: f64) -> bool {
     let ego = &scene.ego;
     let own_m = ego.route.along(ego.state.position());
-    let swung_s = time_s(scene, from_m + swing_m(scene, ego.state.speed_mps) - own_m);
-    let ahead_m = along_m + along_mps * swung_s - from_m - swing_m(scene, ego.state.speed_mps);
+    let swung_s = time_s(scene, from_m + swing_m(&scene.ego, ego.state.speed_mps) - own_m);
+    let ahead_m = along_m + along_mps * swung_s - from_m - swing_m(&scene.ego, ego.state.speed_mps);
     let gap_s = GAP_S * ego.body.time_ratio();
     if ahead_m > 0.0 {
         return ahead_m - other.body.rear_m - ego.body.front_m < gap_s * (ego.state.speed_mps - along_mps).max(0.0);

@@ -98,14 +98,14 @@ impl Obstacle {
     /// Whether a driver could not stop before it any more, however hard it brakes.
     pub(super) fn is_beyond_braking(&self, scene: &Scene) -> bool {
         let ego = &scene.ego;
-        let room_m = self.along_m[0] - ego.route.along(ego.state.position()) - ego.body.front_m;
+        let room_m = self.along_m[0] - ego.along_m() - ego.body.front_m;
         ego.state.speed_mps * ego.state.speed_mps > -2.0 * ego.limits.acceleration_min_mps2 * room_m
     }
 
     /// The inputs of a driver who passes it, accelerating a little: a guess from which plans begin.
     pub(crate) fn guess(&self, scene: &Scene) -> Vec<Input> {
         let ego = &scene.ego;
-        let (swing_m, own_m) = (swing_m(scene, ego.state.speed_mps), ego.route.across(scene.goal.target.position()));
+        let (swing_m, own_m) = (swing_m(ego, ego.state.speed_mps), ego.route.across(scene.goal.target.position()));
         let most_mps2 = GUESSED_ACCELERATION_SHARE * ego.limits.acceleration_max_mps2;
         let motion = roll_out(scene, |_, state| {
             let along_m = ego.route.along(state.position());
@@ -162,7 +162,6 @@ impl Obstacle {
 }
 
 /// The length in which a driver changes to the position beside an obstacle, at a speed \[m\].
-pub(crate) fn swing_m(scene: &Scene, speed_mps: f64) -> f64 {
-    let ego = &scene.ego;
+pub(crate) fn swing_m(ego: &Agent, speed_mps: f64) -> f64 {
     SWING_LENGTHS * (ego.body.front_m + ego.body.rear_m) + SWING_S * ego.body.time_ratio() * speed_mps
 }

@@ -56,6 +56,7 @@ fn alone(scenario: &Scenario, vehicle: &Vehicle) -> Scene {
         indicator: None,
         rules: RoadRules::default(),
         urgency: 1.0,
+        own_place: Default::default(),
     };
     let step_s = scenario.planning_period_s();
     Scene {

@@ -3,7 +3,7 @@
 use interplay_scenarios::MetricKind::{Count, Flag};
 use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
 
-use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
+use crate::measure::metric::{Measurement, Metric, Needs, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
 use crate::state::frame::{Collision, Frame};
 
@@ -42,6 +42,10 @@ struct ContactMetric {
 impl Metric for ContactMetric {
     fn declaration(&self) -> MetricDeclaration {
         self.declaration
+    }
+
+    fn needs(&self) -> Needs {
+        Needs { faults: true, ..Needs::STATES }
     }
 
     fn begin(&self, _: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {

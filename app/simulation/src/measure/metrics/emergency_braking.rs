@@ -3,7 +3,7 @@
 use interplay_scenarios::MetricKind::Count;
 use interplay_scenarios::{Better, MetricComparison, MetricDeclaration, Scenario};
 
-use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
+use crate::measure::metric::{Measurement, Metric, Needs, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
 
 /// Emergency braking exceeds this; by Froude's law accelerations are the same at every scale \[m/s²\].
@@ -30,6 +30,10 @@ impl Metric for EmergencyBraking {
 
     fn begin(&self, _: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
         Box::new(Emergencies { vehicle, is_braking: false, count: 0 })
+    }
+
+    fn needs(&self) -> Needs {
+        Needs::STATES
     }
 }
 

@@ -4,7 +4,7 @@ use interplay_scenarios::MetricKind::Number;
 use interplay_scenarios::{Better, MetricDeclaration, Scenario};
 
 use crate::measure::lane_use::{LaneLines, LaneUse};
-use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
+use crate::measure::metric::{Measurement, Metric, Needs, ObservedMoment, ObservedTick};
 use crate::measure::values::Measured;
 use crate::state::standing::Standing;
 
@@ -63,6 +63,10 @@ impl Metric for LaneUseMetric {
     fn begin(&self, scenario: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
         let lines = LaneLines::of(scenario, &scenario.vehicles[vehicle]);
         Box::new(TimeInPlace { metric: *self, vehicle, lines, now_s: 0.0, value_s: 0.0 })
+    }
+
+    fn needs(&self) -> Needs {
+        Needs::STATES
     }
 }
 

@@ -3,7 +3,7 @@
 use interplay_scenarios::MetricKind::Count;
 use interplay_scenarios::{MetricComparison, MetricDeclaration, Scenario};
 
-use crate::measure::metric::{Measurement, Metric, ObservedMoment, ObservedTick};
+use crate::measure::metric::{Measurement, Metric, Needs, ObservedMoment, ObservedTick};
 use crate::measure::values::{Measured, MetricValue};
 
 const DOC: &str = "How often it breaks a rule of the road: passes a red light, or a stop sign without standing, \
@@ -22,6 +22,10 @@ impl Metric for RulesBroken {
 
     fn begin(&self, _: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
         Box::new(BrokenCount { vehicle, count: 0 })
+    }
+
+    fn needs(&self) -> Needs {
+        Needs { broken_rules: true, ..Needs::STATES }
     }
 }
 
