@@ -1,11 +1,12 @@
 //! Whether a vehicle waits for a reason that others see: then it is a queue, which is followed and never passed by leaving the lane.
 //!
 //! A reason is a line before which the rules hold the vehicle (a sign, a light, a crossing, a vehicle with priority), or its indicator.
-//! A vehicle close behind one that waits belongs to its queue. How long it has stood, and whether it stood when it was first seen,
+//! A vehicle close behind one that waits belongs to its queue, and one that still stands behind one that moves off. How long it has stood, and whether it stood when it was first seen,
 //! says nothing.
 
 use super::giving_way::{front_m, length_m};
 use crate::Agent;
+use crate::scene::relation::is_standing;
 
 /// A vehicle waits at a line that is at most this many lengths of its body ahead, besides the way in which it stops in comfort.
 const LINE_LENGTHS: f64 = 3.0;
@@ -28,6 +29,9 @@ pub(super) fn waits<'a>(agent: &'a Agent, others: impl Iterator<Item = &'a Agent
         }
         let next = next_ahead(last, others.clone());
         let Some(next) = next.filter(|_| most > 0) else { return false };
+        if is_standing(last) && !is_standing(next) && !next.is_obstacle {
+            return true;
+        }
         (last, most) = (next, most - 1);
     }
 }
@@ -62,6 +66,9 @@ mod tests {
         let [second, far] = [33.0, 5.0].map(|x_m| real_car(x_m, 0.0));
         let waiting = |first: &Agent| [first, &second, &far].map(|car| waits(car, [first, &second, &far].into_iter()));
         assert_eq!(waiting(&first), [false; 3], "no line holds the first");
+        first.state.speed_mps = 1.0;
+        assert_eq!(waiting(&first), [false, true, false], "the first moves off");
+        first.state.speed_mps = 0.0;
         first.rules.stop_line_m = Some(43.0);
         assert_eq!(waiting(&first), [true, true, false]);
         first.is_obstacle = true;

@@ -28,6 +28,9 @@ const LOOK_AHEAD_S: f64 = 2.5;
 /// A vehicle with another one ahead within this many lengths of a car stands in a queue.
 const QUEUE_LENGTHS: f64 = 2.5;
 
+/// A vehicle that waited is given this time to start when its reason has ended, for 1/10 scale cars \[s\]: 3 s of a real one.
+const STARTS_S: f64 = 0.95;
+
 /// What a driver does about an obstacle.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Manoeuvre {
@@ -65,6 +68,8 @@ struct Passing {
 pub(crate) struct ObstacleMemory {
     /// Since which tick each has been standing; 0 if it stood when it was first seen.
     standing_since: BTreeMap<String, usize>,
+    /// The last tick at which each stood and waited for a visible reason.
+    waited_at: BTreeMap<String, usize>,
     /// Who is being passed.
     passing: Option<Passing>,
 }
@@ -118,6 +123,9 @@ impl ObstacleMemory {
             if is_standing(other) {
                 let since = if is_first { 0 } else { scene.tick };
                 self.standing_since.entry(other.name.clone()).or_insert(since);
+                if queue::waits(other, scene.others.iter()) {
+                    self.waited_at.insert(other.name.clone(), scene.tick);
+                }
             } else {
                 self.standing_since.remove(&other.name);
             }
@@ -161,12 +169,15 @@ impl ObstacleMemory {
         obstacles.min_by(|a, b| a.along_m[0].total_cmp(&b.along_m[0]))
     }
 
-    /// Whether a vehicle that stands waits in a queue: for a visible reason, or since it came to a stop close behind another one.
+    /// Whether a vehicle that stands waits in a queue: for a visible reason that may just have ended, or since it came to a stop close
+    /// behind another one.
     fn is_queueing(&self, scene: &Scene, other: &Agent) -> bool {
         if other.is_obstacle {
             return false;
         }
-        if queue::waits(other, scene.others.iter()) {
+        let starts_s = if scene.knowledge.is_of_motion() { STARTS_S * scene.ego.body.time_ratio() } else { 0.0 };
+        let reason_ended_s = |tick: &usize| (scene.tick - tick) as f64 * scene.step_s;
+        if self.waited_at.get(&other.name).map(reason_ended_s).is_some_and(|ended_s| ended_s <= starts_s) {
             return true;
         }
         let has_come = self.standing_since.get(&other.name).is_none_or(|since| *since > 0);
