@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use interplay_planners::perception::sensing::Sensor;
 use interplay_planners::prediction::{steadily_along, without_plans};
-use interplay_planners::scene::Knowledge;
+use interplay_planners::scene::{Knowledge, OwnPlace};
 use interplay_planners::{Agent, Goal, Planner, Scene, Trajectory};
 use interplay_scenarios::{Scenario, Vehicle};
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
@@ -26,6 +26,7 @@ fn agents(film: &Film, tick: usize) -> Vec<Agent> {
     seen.map(|(index, (now, vehicle))| Agent {
         name: vehicle.name.clone(),
         state: now.state,
+        own_place: OwnPlace::default(),
         previous_input: before.map(|frame| frame.vehicles[index].input).unwrap_or_default(),
         body: vehicle.body,
         limits: vehicle.limits,

@@ -135,7 +135,8 @@ fn row_ahead(scene: &Scene, is_under_way: bool) -> Option<Row<'_>> {
         row.speed_mps = row.speed_mps.max(other.state.speed_mps);
     }
     let is_slow = faster_mps(scene, &row) >= FASTER_MPS * ego.body.time_ratio();
-    let moves = is_under_way || !is_standing(first) && !pulls_away(scene, first);
+    let is_beside = is_under_way && own_m + ego.body.front_m > row.along_m[0];
+    let moves = (is_under_way || !is_standing(first)) && (is_beside || !pulls_away(scene, first));
     (is_slow && moves && !queue::waits(first, scene.others.iter())).then_some(row)
 }
 

@@ -53,6 +53,7 @@ const ACCEPTED_CIRCLES: &[(&str, &str, &str)] = &[
     ("building", "network", "openings are a part of a network and are found from it"),
     ("building", "sun", "the sky model is given the plane that it shines on"),
     ("building", "weather", "the sky is computed from the weather that holds it"),
+    ("planners", "traffic", "the steps of a tick are methods of the traffic that the folder defines"),
     ("scenarios", "commonroad", "a map is imported with the options of the folder"),
 ];
 
