@@ -8,6 +8,7 @@ use interplay_scenarios::Scenario;
 
 use super::Simulation;
 use super::extensions::Extensions;
+use super::saved_run::Course;
 use crate::measure::Subscriptions;
 use crate::phases::Slot;
 use crate::phases::time_points::TimePoints;
@@ -133,8 +134,15 @@ impl SimulationBuilder<'_> {
             world.insert_resource(DecidingThreads(Some(Arc::new(pool.map_err(RunError::Threads)?))));
         }
         extensions.copy_states(&initial, &mut world);
-        let clocks = TimePoints::new(scenario);
-        let mut simulation = Simulation::assembled(name, Arc::new(scenario.clone()), clocks, world, extensions)?;
+        let course = Course {
+            name,
+            scenario: Arc::new(scenario.clone()),
+            time_points: TimePoints::new(scenario),
+            inputs: Vec::new(),
+            replaced: Vec::new(),
+            extensions,
+        };
+        let mut simulation = Simulation::assembled(course, world)?;
         simulation.wall_s = began.elapsed().as_secs_f64();
         Ok(simulation)
     }

@@ -22,8 +22,7 @@ use interplay_planners::traffic::RoadUser;
 use interplay_planners::{Drive, Input, State};
 use interplay_scenarios::Scenario;
 
-use self::extensions::Extensions;
-use self::saved_run::HandedInput;
+use self::saved_run::{Course, HandedInput};
 use crate::climate::Building;
 use crate::measure::{BuildingMeasures, Measures};
 use crate::report::Report;
@@ -34,7 +33,6 @@ use crate::state::components::{
 use crate::state::detail::{LevelOfDetail, NotCopied};
 use crate::state::frame::Frame;
 
-use crate::phases::time_points::TimePoints;
 use crate::phases::watch::{Watcher, Watchers};
 use crate::phases::{self, sense};
 use crate::simulation::world_state::WorldState;
@@ -62,17 +60,10 @@ use crate::simulation::world_state::WorldState;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Simulation {
-    name: String,
-    scenario: Arc<Scenario>,
+    pub(crate) course: Course,
     pub(crate) world: World,
     schedule: Schedule,
-    time_points: TimePoints,
     has_failed: bool,
-    /// The caller's inputs, in order.
-    pub(crate) inputs: Vec<HandedInput>,
-    /// Vehicles whose driver was replaced by one that the scenario does not name.
-    pub(crate) replaced: Vec<String>,
-    pub(crate) extensions: Extensions,
     /// Wall time of building and stepping the world \[s\].
     wall_s: f64,
 }
@@ -94,33 +85,16 @@ impl Simulation {
         Self::builder(scenario).with_name(name).with_watchers(watchers).build()
     }
 
-    pub(crate) fn assembled(
-        name: String,
-        scenario: Arc<Scenario>,
-        time_points: TimePoints,
-        mut world: World,
-        extensions: Extensions,
-    ) -> Result<Self, RunError> {
+    pub(crate) fn assembled(course: Course, mut world: World) -> Result<Self, RunError> {
         let mut schedule = phases::schedule();
         extensions::initialize(&mut schedule, &mut world)?;
-        extensions.add_systems(&mut schedule, &mut world)?;
-        Ok(Simulation {
-            name,
-            scenario,
-            world,
-            schedule,
-            time_points,
-            has_failed: false,
-            inputs: Vec::new(),
-            replaced: Vec::new(),
-            extensions,
-            wall_s: 0.0,
-        })
+        course.extensions.add_systems(&mut schedule, &mut world)?;
+        Ok(Simulation { course, world, schedule, has_failed: false, wall_s: 0.0 })
     }
 
     /// The scenario that is simulated.
     pub fn scenario(&self) -> &Scenario {
-        &self.scenario
+        &self.course.scenario
     }
 
     /// Advances the world by one tick of the vehicles or one step of the building, whichever comes next. Returns the
@@ -134,14 +108,14 @@ impl Simulation {
         if self.has_failed {
             return Err(RunError::Ended);
         }
-        let mut ahead = self.time_points.clone();
+        let mut ahead = self.course.time_points.clone();
         let Some(time_point) = ahead.next() else { return Ok(None) };
         if time_point.vehicles && self.world.resource::<Clock>().ticks_since_plan() == 0 {
             self.repeat_inputs()?;
             self.refuse_without_input()?;
         }
-        let tick = self.time_points.passed();
-        self.time_points = ahead;
+        let tick = self.course.time_points.passed();
+        self.course.time_points = ahead;
         let frame = Frame { tick, time_s: time_point.time_s, ..Frame::default() };
         let last = std::mem::replace(&mut self.world.resource_mut::<CurrentFrame>().0, frame);
         if !last.vehicles.is_empty() {
@@ -166,7 +140,7 @@ impl Simulation {
     /// As [`Simulation::step`].
     pub fn advance_to(&mut self, time_s: f64) -> Result<(), RunError> {
         let end_s = to_nanosecond(time_s);
-        while self.time_points.clone().next().is_some_and(|time_point| time_point.time_s < end_s) {
+        while self.course.time_points.clone().next().is_some_and(|time_point| time_point.time_s < end_s) {
             self.step()?;
         }
         Ok(())
@@ -179,22 +153,22 @@ impl Simulation {
 
     /// The last frame; `None` before the first step.
     pub fn frame(&self) -> Option<&Frame> {
-        (self.time_points.passed() > 0).then(|| &self.world.resource::<CurrentFrame>().0)
+        (self.course.time_points.passed() > 0).then(|| &self.world.resource::<CurrentFrame>().0)
     }
 
     /// Simulated time up to which the world has advanced \[s\].
     pub fn time_s(&self) -> f64 {
-        self.time_points.reached_s()
+        self.course.time_points.reached_s()
     }
 
     /// Whether the scenario is over and a step does nothing.
     pub fn is_over(&self) -> bool {
-        self.time_points.clone().next().is_none()
+        self.course.time_points.clone().next().is_none()
     }
 
     /// Whether any tick of the vehicles remains.
     pub(crate) fn vehicles_move_again(&self) -> bool {
-        self.world.get_resource::<Clock>().is_some_and(|clock| clock.tick < self.scenario.tick_count())
+        self.world.get_resource::<Clock>().is_some_and(|clock| clock.tick < self.course.scenario.tick_count())
     }
 
     /// The scene that the driver of a vehicle would receive at the next tick, sensing included: the state of every visible vehicle, the
@@ -234,7 +208,7 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::apply`]; [`RunError::WrongPlan`] if its length is not the scenario's horizon.
     pub fn apply_plan(&mut self, vehicle: &str, inputs: &[Input]) -> Result<(), RunError> {
-        let steps = self.scenario.horizon_steps;
+        let steps = self.course.scenario.horizon_steps;
         if inputs.len() != steps {
             return Err(RunError::WrongPlan { vehicle: vehicle.to_owned(), found: inputs.len(), steps });
         }
@@ -252,7 +226,7 @@ impl Simulation {
     /// [`RunError::NoVehicle`] if the scenario has no vehicle of that name.
     pub fn drive_with(&mut self, vehicle: &str, driver: impl Drive + 'static) -> Result<(), RunError> {
         let index = self.index_of(vehicle)?;
-        self.replaced.push(vehicle.to_owned());
+        self.course.replaced.push(vehicle.to_owned());
         self.give_wheel(index, Some(Box::new(driver)));
         Ok(())
     }
@@ -262,7 +236,7 @@ impl Simulation {
     pub(crate) fn change_drivers(&mut self, changed: &Scenario) {
         let fleet = self.world.resource::<Fleet>().0.clone();
         for (row, entity) in fleet.into_iter().enumerate() {
-            let [old, new] = [&*self.scenario, changed].map(|scenario| &scenario.vehicles[row]);
+            let [old, new] = [&*self.course.scenario, changed].map(|scenario| &scenario.vehicles[row]);
             if (&old.driver, &old.inference) == (&new.driver, &new.inference) {
                 continue;
             }
@@ -279,7 +253,7 @@ impl Simulation {
             user.patience_s = new.driver.patience_s();
             user.decides = new.driver.is_vetoed();
         }
-        self.scenario = Arc::new(changed.clone());
+        self.course.scenario = Arc::new(changed.clone());
     }
 
     /// A copy of all state, which can be resumed any number of times and outlives this simulation. Watchers are not copied.
@@ -289,18 +263,9 @@ impl Simulation {
     /// of an added system that was not registered.
     pub fn snapshot(&self) -> Result<Snapshot, NotCopied> {
         let mut world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
-        let Simulation { name, scenario, time_points, inputs, replaced, extensions, .. } = self;
-        extensions.refuse_uncopied(&self.world, &world)?;
-        extensions.copy_states(&self.world, &mut world);
-        Ok(Snapshot {
-            name: name.clone(),
-            scenario: Arc::clone(scenario),
-            time_points: time_points.clone(),
-            inputs: inputs.clone(),
-            replaced: replaced.clone(),
-            extensions: extensions.clone(),
-            world,
-        })
+        self.course.extensions.refuse_uncopied(&self.world, &world)?;
+        self.course.extensions.copy_states(&self.world, &mut world);
+        Ok(Snapshot { course: self.course.clone(), world })
     }
 
     /// Restores a snapshot, of this world or of any other. The watchers stay and receive the following ticks.
@@ -331,7 +296,7 @@ impl Simulation {
     pub fn report(&self) -> Report {
         let ended_early_s = (!self.is_over()).then(|| self.time_s());
         let building = self.world.get_resource::<BuildingMeasures>();
-        Report::new(&self.name, &self.scenario, self.measures(), building, self.wall_s, ended_early_s)
+        Report::new(&self.course.name, &self.course.scenario, self.measures(), building, self.wall_s, ended_early_s)
     }
 
     /// The measures so far.
@@ -347,7 +312,7 @@ impl Simulation {
 
 impl Simulation {
     fn index_of(&self, vehicle: &str) -> Result<usize, RunError> {
-        self.scenario.index_of(vehicle).ok_or_else(|| self.no_vehicle(vehicle))
+        self.course.scenario.index_of(vehicle).ok_or_else(|| self.no_vehicle(vehicle))
     }
 
     /// The entity of a vehicle, by its row.
@@ -356,24 +321,24 @@ impl Simulation {
     }
 
     fn no_vehicle(&self, vehicle: &str) -> RunError {
-        let names = self.scenario.vehicles.iter().map(|vehicle| vehicle.name.clone());
+        let names = self.course.scenario.vehicles.iter().map(|vehicle| vehicle.name.clone());
         RunError::NoVehicle { vehicle: vehicle.to_owned(), names: names.collect::<Vec<_>>().join(", ") }
     }
 
     /// Sets the decision of an external driver.
     pub(crate) fn hand_in(&mut self, vehicle: &str, decided: HandedIn) -> Result<(), RunError> {
         let index = self.index_of(vehicle)?;
-        let step = self.time_points.passed();
+        let step = self.course.time_points.passed();
         let handed = HandedInput::of(step, vehicle, &decided);
         match self.world.get_mut::<HandedIn>(self.entity(index)) {
             Some(mut handed_in) if *handed_in != HandedIn::NotExternal => *handed_in = decided,
             _ => return Err(RunError::NotExternal { vehicle: vehicle.to_owned() }),
         }
         // The last call before a step counts.
-        let before = self.inputs.iter().rposition(|before| before.step < step).map_or(0, |last| last + 1);
-        let same = self.inputs[before..].iter().position(|handed| handed.vehicle == vehicle);
-        same.map(|same| self.inputs.remove(before + same));
-        self.inputs.extend(handed);
+        let before = self.course.inputs.iter().rposition(|before| before.step < step).map_or(0, |last| last + 1);
+        let same = self.course.inputs[before..].iter().position(|handed| handed.vehicle == vehicle);
+        same.map(|same| self.course.inputs.remove(before + same));
+        self.course.inputs.extend(handed);
         Ok(())
     }
 

@@ -103,21 +103,21 @@ impl Snapshot {
     /// [`SavedRunError::NotCopied`] if a driver that the scenario does not name has taken over by [`Simulation::drive_with`], or
     /// if systems were added.
     pub fn to_json(&self) -> Result<String, SavedRunError> {
-        if let Some(vehicle) = self.replaced.first() {
+        if let Some(vehicle) = self.course.replaced.first() {
             let why = "it is not part of the scenario; give the vehicle a `driver` of a registered kind".to_owned();
             return Err(NotCopied { who: format!("the driver that has taken over `{vehicle}`"), why }.into());
         }
-        if let Some(system) = self.extensions.first_system() {
+        if let Some(system) = self.course.extensions.first_system() {
             let why = "it is not part of the scenario".to_owned();
             return Err(NotCopied { who: format!("the added system `{system}`"), why }.into());
         }
         let saved = SavedRun {
             format: FORMAT,
             program: env!("CARGO_PKG_VERSION").to_owned(),
-            name: self.name.clone(),
-            scenario: self.scenario.to_file().to_toml(),
-            steps: self.time_points.passed(),
-            inputs: self.inputs.clone(),
+            name: self.course.name.clone(),
+            scenario: self.course.scenario.to_file().to_toml(),
+            steps: self.course.time_points.passed(),
+            inputs: self.course.inputs.clone(),
             digest: self.digest(),
         };
         Ok(serde_json::to_string_pretty(&saved)?)
@@ -158,7 +158,8 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::snapshot`].
     pub fn fork(&self) -> Result<Simulation, RunError> {
-        self.snapshot()?.into_simulation()
+        let Snapshot { course, world } = self.snapshot()?;
+        Simulation::assembled(course, world)
     }
 }
 
@@ -167,13 +168,21 @@ impl Simulation {
 ///
 /// A world that is resumed from it continues bit for bit like the one that was copied. It can be resumed any number of times.
 pub struct Snapshot {
-    pub(crate) name: String,
-    pub(crate) scenario: Arc<Scenario>,
-    pub(crate) time_points: TimePoints,
-    pub(crate) inputs: Vec<HandedInput>,
-    pub(crate) replaced: Vec<String>,
-    pub(crate) extensions: Extensions,
+    pub(crate) course: Course,
     pub(crate) world: World,
+}
+
+/// What a simulation is besides its world: what is run, how far it has come, and what came from outside.
+#[derive(Clone)]
+pub(crate) struct Course {
+    pub name: String,
+    pub scenario: Arc<Scenario>,
+    pub time_points: TimePoints,
+    /// The caller's inputs, in order.
+    pub inputs: Vec<HandedInput>,
+    /// Vehicles whose driver was replaced by one that the scenario does not name.
+    pub replaced: Vec<String>,
+    pub extensions: Extensions,
 }
 
 impl Snapshot {
@@ -183,25 +192,8 @@ impl Snapshot {
     /// [`RunError::NotCopied`], only if uncopied state was added to the copy.
     pub fn resume(&self) -> Result<Simulation, RunError> {
         let mut world = WorldState::copy_from(&self.world)?.into_world(Vec::new());
-        self.extensions.copy_states(&self.world, &mut world);
-        let Snapshot { name, scenario, time_points, inputs, replaced, extensions, .. } = self;
-        let copy = Snapshot {
-            name: name.clone(),
-            scenario: Arc::clone(scenario),
-            time_points: time_points.clone(),
-            inputs: inputs.clone(),
-            replaced: replaced.clone(),
-            extensions: extensions.clone(),
-            world,
-        };
-        copy.into_simulation()
-    }
-
-    /// The simulation that continues from here, of the state itself instead of a copy.
-    fn into_simulation(self) -> Result<Simulation, RunError> {
-        let Snapshot { name, scenario, time_points, inputs, replaced, extensions, world } = self;
-        let simulation = Simulation::assembled(name, scenario, time_points, world, extensions)?;
-        Ok(Simulation { inputs, replaced, ..simulation })
+        self.course.extensions.copy_states(&self.world, &mut world);
+        Simulation::assembled(self.course.clone(), world)
     }
 
     pub(crate) fn digest(&self) -> String {
@@ -212,6 +204,6 @@ impl Snapshot {
 
     /// Simulated time of the snapshot \[s\].
     pub fn time_s(&self) -> f64 {
-        self.time_points.reached_s()
+        self.course.time_points.reached_s()
     }
 }

@@ -14,13 +14,13 @@ impl Simulation {
     /// [`RunError::NoVehicle`]; [`RunError::NotExternal`] if the scenario gives the vehicle another driver.
     pub fn hand_over(&mut self, vehicle: &str, to: Option<&Driver>) -> Result<(), RunError> {
         let index = self.index_of(vehicle)?;
-        let stated = &self.scenario.vehicles[index].driver;
+        let stated = &self.course.scenario.vehicles[index].driver;
         if !stated.is_driven_from_outside() {
             return Err(RunError::NotExternal { vehicle: vehicle.to_owned() });
         }
         // A snapshot as text repeats hand-overs only if the scenario contains them.
-        if stated.inputs().is_none() && !self.replaced.iter().any(|replaced| replaced == vehicle) {
-            self.replaced.push(vehicle.to_owned());
+        if stated.inputs().is_none() && !self.course.replaced.iter().any(|replaced| replaced == vehicle) {
+            self.course.replaced.push(vehicle.to_owned());
         }
         self.give_wheel(index, to.map(|driver| driver.driver()));
         Ok(())
@@ -41,7 +41,7 @@ impl Simulation {
     /// Applies the recorded inputs for the next plan.
     pub(super) fn repeat_inputs(&mut self) -> Result<(), RunError> {
         let plan = self.world.resource::<Clock>().plans();
-        let scenario = std::sync::Arc::clone(&self.scenario);
+        let scenario = std::sync::Arc::clone(&self.course.scenario);
         for (row, vehicle) in scenario.vehicles.iter().enumerate() {
             let Some(record) = vehicle.driver.inputs() else { continue };
             if let Some(to) = record.handed_over_at(plan) {

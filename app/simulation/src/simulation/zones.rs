@@ -72,8 +72,8 @@ impl Simulation {
         }
         building.handed_in_kw = Some(heat_kw.to_vec());
         // A snapshot as text repeats only inputs of vehicles.
-        if !self.replaced.iter().any(|replaced| replaced == WHO) {
-            self.replaced.push(WHO.to_owned());
+        if !self.course.replaced.iter().any(|replaced| replaced == WHO) {
+            self.course.replaced.push(WHO.to_owned());
         }
         Ok(())
     }
