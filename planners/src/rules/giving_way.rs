@@ -142,7 +142,7 @@ impl<'a> Pair<'a> {
 
 /// The time for a way along a vehicle's route, no faster than limits and curves permit, and the speed at its end \[s, m/s\].
 fn through_curves(agent: &Agent, way_m: f64, wanted_mps: f64, acceleration_mps2: f64) -> (f64, f64) {
-    let from_m = agent.route.along(agent.state.position());
+    let from_m = agent.along_m();
     let (mut time_s, mut speed_mps) = (0.0, agent.state.speed_mps);
     let most_mps = wanted_mps.max(speed_mps);
     let piece_m = way_m.max(0.0) / WAY_PIECES as f64;

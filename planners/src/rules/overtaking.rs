@@ -77,7 +77,7 @@ impl Overtaking {
         self.behind = Some((row.first.name.clone(), since));
         let ratio = scene.ego.body.time_ratio();
         let has_waited = (scene.tick - since) as f64 * scene.step_s >= patience_s * ratio;
-        let own_m = scene.ego.route.along(scene.ego.state.position());
+        let own_m = scene.ego.along_m();
         let is_beside = self.is_under_way && own_m + scene.ego.body.front_m > row.along_m[0];
         self.is_under_way = is_beside
             || (self.is_under_way || has_waited && is_near(scene, &row)) && {
@@ -94,7 +94,7 @@ impl Overtaking {
 
 /// The middle of the lane of oncoming traffic beside the own lane, which the driver may use; none if there is none \[m\].
 pub(super) fn other_lane_m(ego: &Agent) -> Option<f64> {
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     let [_, lane_left_m] = ego.route.own_lane()?.edges_before_end_m(own_m);
     let [_, same_left_m] = ego.route.same_direction_edges_m(own_m);
     let [_, left_m] = ego.route.edges_before_end_m(own_m);
@@ -110,7 +110,7 @@ fn faster_mps(scene: &Scene, row: &Row<'_>) -> f64 {
 /// The row of slow vehicles ahead in the lane, or beside a driver who overtakes; none if nothing there is slow and moves, or if it waits.
 fn row_ahead(scene: &Scene, is_under_way: bool) -> Option<Row<'_>> {
     let ego = &scene.ego;
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     let ahead_m = AHEAD_LENGTHS * length_m(ego);
     let from_m = own_m - if is_under_way { ego.body.rear_m + ahead_m } else { 0.0 };
     let reach_m = LOOK_AHEAD_S * ego.body.time_ratio() * scene.goal.target.speed_mps + ego.body.front_m;
@@ -149,7 +149,7 @@ fn pulls_away(scene: &Scene, other: &Agent) -> bool {
 /// Whether a driver is so near to a row that it changes to the other lane.
 fn is_near(scene: &Scene, row: &Row<'_>) -> bool {
     let ego = &scene.ego;
-    let gap_m = row.along_m[0] - ego.route.along(ego.state.position()) - ego.body.front_m;
+    let gap_m = row.along_m[0] - ego.along_m() - ego.body.front_m;
     let [following_s, closing_s] = BEGIN_S.map(|time_s| time_s * ego.body.time_ratio());
     let closing_mps = (ego.state.speed_mps - row.speed_mps).max(0.0);
     gap_m <= length_m(ego) + following_s * row.speed_mps + closing_s * closing_mps
@@ -158,7 +158,7 @@ fn is_near(scene: &Scene, row: &Row<'_>) -> bool {
 /// The way past a row that keeps its speed, while the driver accelerates to the speed that it wants.
 fn way_past(scene: &Scene, row: &Row<'_>) -> Way {
     let ego = &scene.ego;
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     let acceleration_mps2 = ACCELERATION_SHARE * ego.limits.acceleration_max_mps2;
     let past_m = row.along_m[1] + ego.body.rear_m + AHEAD_LENGTHS * length_m(ego) - own_m;
     let begins_m = row.along_m[0] - ego.body.front_m - swing_m(ego, row.speed_mps) - own_m;
@@ -179,7 +179,7 @@ fn way_past(scene: &Scene, row: &Row<'_>) -> Way {
 /// Whether another vehicle is on the other lane before the driver is past a row, be it oncoming, standing or overtaking from behind.
 fn is_met(scene: &Scene, row: &Row<'_>, way: Way, other_lane_m: f64) -> bool {
     let ego = &scene.ego;
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     let until_s = way.time_s + SPARE_S * ego.body.time_ratio();
     scene.others.iter().any(|other| {
         let at = ego.route.locate(other.state.position(), None);

@@ -141,7 +141,7 @@ impl Agent {
     /// The speed that it does not exceed for now, so that there is room when it joins the way of others \[m/s\]; none if nothing holds it.
     pub(crate) fn merging_speed_mps(&self) -> Option<f64> {
         let Merging { meeting_m, in_s, .. } = self.rules.merging.as_ref()?;
-        let front_m = self.route.along(self.state.position()) + self.body.front_m;
+        let front_m = self.along_m() + self.body.front_m;
         Some(self.state.speed_mps.min((meeting_m - front_m).max(0.0) / in_s.max(1e-3)))
     }
 

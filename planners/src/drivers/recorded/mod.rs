@@ -71,7 +71,7 @@ impl DriverKind for Settings {
         true
     }
 
-    /// Who takes over may plan.
+    /// The driver that takes over may plan ahead.
     fn reacts(&self) -> bool {
         self.hands_over.is_none()
     }

@@ -154,7 +154,7 @@ fn comes_into(scene: &Scene, other: &Agent, obstacle: &Obstacle, zone_m: [f64; 2
 /// the one behind follows.
 fn leaves_no_gap(scene: &Scene, other: &Agent, along_m: f64, along_mps: f64, from_m: f64) -> bool {
     let ego = &scene.ego;
-    let own_m = ego.route.along(ego.state.position());
+    let own_m = ego.along_m();
     let swung_s = time_s(scene, from_m + swing_m(&scene.ego, ego.state.speed_mps) - own_m);
     let ahead_m = along_m + along_mps * swung_s - from_m - swing_m(&scene.ego, ego.state.speed_mps);
     let gap_s = GAP_S * ego.body.time_ratio();
