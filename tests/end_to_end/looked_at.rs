@@ -1,7 +1,7 @@
 //! Streets on which drivers were seen to do what people do not: to stop half-way into a lane, to overtake a bus that
-//! pulls away.
+//! pulls away, to swerve onto the other lane where they are close behind another car.
 
-use interplay_scenarios::{Override, load};
+use interplay_scenarios::{Override, from_text, load};
 use interplay_simulation::run::run;
 use rayon::prelude::*;
 
@@ -43,5 +43,38 @@ fn a_driver_overtakes_a_slow_lorry_and_no_bus_that_leaves_its_stop() {
         let scenario = load(street, &[normal]).expect("a street");
         let report = run("overtake", &scenario, Vec::new()).expect("a run");
         assert_eq!(report.order_of_driven().last(), Some(&last), "{street}");
+    }
+}
+
+/// A car of which the driver finds itself close behind another that pulls away, as behind one that has cut in.
+const CLOSE_BEHIND: &str = r#"
+title = "Close behind"
+shows = "A car close behind another that pulls away"
+duration_s = 6.0
+road = { kind = "two-way" }
+defaults = { class = "car" }
+[[vehicle]]
+name = "ego"
+start = { lane = "east", along_m = 20.0, speed_mps = 8.0 }
+goal = { speed_mps = 8.0 }
+[[vehicle]]
+name = "ahead"
+start = { lane = "east", along_m = 28.9, speed_mps = 8.0 }
+goal = { speed_mps = 12.0 }
+driver = { kind = "idm" }
+"#;
+
+/// A gap that is too short was to open faster than brakes can open it, so that planners gained it by swerving 2.4 m to the left.
+#[test]
+fn a_driver_close_behind_another_stays_in_its_lane() {
+    for driver in ["human", "idm", "conservative", "negotiation", "bayesian", "game", "contingency", "nash"] {
+        let driven = Override::Set(format!("vehicle.ego.driver={{ kind = \"{driver}\" }}"));
+        let scenario = from_text("close-behind", CLOSE_BEHIND, &[driven]).expect("a scenario");
+        let report = run("close-behind", &scenario, Vec::new()).expect("a run");
+        let ego = report.vehicle("ego").expect("the ego");
+        let number = |name: &str| ego.metrics.number(name).unwrap_or_default();
+        let [lateral_mps2, braking_mps2] = ["peak_lateral_acceleration_mps2", "peak_braking_mps2"].map(number);
+        assert!(lateral_mps2 < 0.5 && braking_mps2 < 3.0, "{driver}: {lateral_mps2} and {braking_mps2} m/s²");
+        assert!(number("astride_s") < 0.1 && report.collisions.is_empty(), "{driver}");
     }
 }

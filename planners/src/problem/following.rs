@@ -14,6 +14,7 @@
 
 use super::clearance::{ASIDE_M, FIRM_SHARE, OPENING, PLANNER_SHARE, STANDSTILL_GAP_M};
 use crate::scene::road_rules::Followed;
+use crate::vehicle::ComfortLimits;
 use crate::{Agent, Scene, State};
 
 /// No line leaves a gap below this share of the one at standstill.
@@ -123,10 +124,31 @@ impl Scene {
             firm_m.min(opened_m).max(LEAST_SHARE * standstill_m)
         };
         let rears = self.rears(leader);
-        let lines_m = rears.iter().enumerate().map(|(stage, [rear_m, mps])| rear_m - firm_m(stage, *mps)).collect();
+        let line_m = |(stage, ([rear_m, mps], braked_m)): (usize, (&[f64; 2], f64))| {
+            let latest_m = rear_m - LEAST_SHARE * standstill_m;
+            (rear_m - firm_m(stage, *mps)).max(braked_m.min(latest_m))
+        };
+        let lines_m = rears.iter().zip(self.braked_fronts_m(&comfort)).enumerate().map(line_m).collect();
         let gap_m = |mps: f64| standstill_m + share * comfort.time_gap_s * mps;
         let speeds_mps = self.approach_mps(now_m + front_m, &rears, gap_m);
         Some(Followed { name: leader.name.clone(), lines_m, speeds_mps })
+    }
+
+    /// Where the front comes at `t = 1…N` along the own route with as much braking as the urgency permits: a line that asks for more
+    /// would be kept by swerving \[m\].
+    fn braked_fronts_m(&self, comfort: &ComfortLimits) -> Vec<f64> {
+        let (ego, step_s) = (&self.ego, self.step_s);
+        let most_mps2 = comfort.jerk_mps3 * ego.urgency * ego.urgency * step_s;
+        let mut front_m = ego.along_m() + ego.body.front_m;
+        let (mut speed_mps, mut acceleration_mps2) = (ego.state.speed_mps, ego.previous_input.acceleration_mps2);
+        let fronts = (0..self.horizon).map(|_| {
+            front_m += step_s * speed_mps;
+            let least_mps2 = -comfort.braking_at_mps2(ego.urgency, speed_mps);
+            acceleration_mps2 = (acceleration_mps2 - most_mps2).max(least_mps2.max(ego.limits.acceleration_min_mps2));
+            speed_mps = (speed_mps + step_s * acceleration_mps2).max(0.0);
+            front_m
+        });
+        fronts.collect()
     }
 
     /// Where the rear of a vehicle is expected at `t = 1…N` along the own route \[m\], and its speed there along it \[m/s\].

@@ -51,7 +51,8 @@ pub fn problem(scene: &Scene, futures: &[Future], shared_steps: usize) -> Proble
         let Goal { tracking, comfort, .. } = scene.goal;
         let goal = Goal { tracking: tracking.map(share), comfort: comfort.map(share), ..scene.goal };
         terms.extend(scene.own_terms(vehicle, &goal));
-        terms.extend(scene.others.iter().zip(&future.predictions).map(|(other, prediction)| {
+        let others = scene.others.iter().zip(&future.predictions).filter(|(other, _)| scene.minds(other));
+        terms.extend(others.map(|(other, prediction)| {
             let keep_out = scene.keep_out(prediction, &other.route, Penalty::EXACT);
             Term::KeepOut(KeepOut { vehicle, ..keep_out })
         }));
