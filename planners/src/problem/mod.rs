@@ -21,17 +21,20 @@ use crate::{Agent, Goal, SafetyEllipse, Scene};
 /// Cost of leaving the road for people, as a multiple of that for the drivers of the dissertation: more than to come near a vehicle, for
 /// which a plan would otherwise trade the road. In danger it grows with the urgency.
 const PEOPLE_ON_ROAD: f64 = 5.0;
+/// People plan to stay this far within the road, since what they drive lags behind what they plan, for 1/10 scale cars \[m\].
+const WITHIN_EDGE_M: f64 = 0.01;
 
 impl Agent {
     /// Corners that stay on the road, of this agent as number `vehicle` of a trajectory problem.
     pub fn road_edge(&self, vehicle: usize) -> RoadEdge {
-        let (route, mut penalty) = (Arc::clone(&self.route), Penalty::road_edge(self.body.scale));
+        let (route, mut body, mut penalty) = (Arc::clone(&self.route), self.body, Penalty::road_edge(self.body.scale));
         if self.limits.comfort.is_some() {
             let Penalty { linear, quadratic } = penalty;
             let ratio = PEOPLE_ON_ROAD * self.urgency;
             penalty = Penalty { linear: ratio * linear, quadratic: ratio * quadratic };
+            body.width_m += 2.0 * WITHIN_EDGE_M * body.scale;
         }
-        RoadEdge { vehicle, body: self.body, route, penalty }
+        RoadEdge { vehicle, body, route, penalty }
     }
 
     /// The lines of its lane where it stays in it, as number `vehicle` of a trajectory problem.
