@@ -90,7 +90,7 @@ pub(super) fn zebra(draft: &mut Draft) {
     draft.lane("opposite", [[x_m, -5.0], [x_m, -14.0]], 2.5, path);
     let front_m = (STREET_M + x_m - draft.between(30.0, 60.0)).min(STREET_M - LINE_M);
     column(draft, front_m, limit_mps);
-    let mut along_m = draft.between(2.0, 7.0);
+    let mut along_m = draft.between(4.5, 8.0);
     let count = draft.count(1, 3);
     for name in ["walker", "second-walker", "third-walker"].iter().take(count) {
         let speed_mps = draft.between(0.8, 1.5);
@@ -100,7 +100,7 @@ pub(super) fn zebra(draft: &mut Draft) {
             driver: Some(format!("{{ kind = \"walker\", style = \"{style}\" }}")),
             ..car(name, "pavement", along_m, speed_mps, Some("opposite"))
         });
-        along_m -= draft.between(0.6, 0.7);
+        along_m -= draft.between(1.2, 2.0);
     }
     if draft.chance(0.5) {
         oncoming(draft, "west-in", "west-out", limit_mps);
