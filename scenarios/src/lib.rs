@@ -105,6 +105,7 @@ pub use model::metric::{
 };
 pub use model::remark::{ScenarioRemark, ScenarioRemarks};
 pub use model::scenario::{BudgetLimits, Counterfactual, Scenario, Stay, Vehicle};
+pub use model::traffic::flows::ScenarioFlows;
 pub use model::traffic::goal::GoalConfig;
 pub use model::traffic::lane_reference::{DetectorConfig, LaneReference};
 pub use model::traffic::light::LightConfig;
