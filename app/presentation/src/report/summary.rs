@@ -8,7 +8,7 @@ use interplay_simulation::report::{BeliefReport, CounterfactualReport, PlansRepo
 
 use super::building;
 use super::columns::{Align, write_table, written};
-use super::crowd::{Crowd, flow_of};
+use super::crowd::{Crowd, is_in};
 
 /// The report as text: goals, passing order, smallest gap, planning times, expectations.
 pub fn summary(title: &str, report: &Report) -> String {
@@ -50,7 +50,9 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
             writeln!(text, "  {} reached its goal at {:?} s", vehicle.name, to_milliseconds(time_s))?;
         }
     }
-    writeln!(text, "  order at the end: {}", order_in_words(report, &crowds))?;
+    if let Some(order) = order_in_words(report, &crowds) {
+        writeln!(text, "  order at the end: {order}")?;
+    }
     match report.min_gap_m() {
         Some(gap) => writeln!(text, "  smallest gap of the ego: {gap:.3} m")?,
         None => writeln!(text, "  the ego is the only vehicle")?,
@@ -78,19 +80,11 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
     write_vehicles(text, &crowds, &alone)
 }
 
-/// The order at the end; the vehicles of a crowd that follow one another are counted.
-fn order_in_words(report: &Report, crowds: &[Crowd<'_>]) -> String {
-    let mut places: Vec<(&str, usize)> = Vec::new();
-    for name in report.order_of_driven() {
-        let crowd = flow_of(name).filter(|flow| crowds.iter().any(|crowd| crowd.name == *flow));
-        match (places.last_mut(), crowd) {
-            (Some((last, count)), Some(crowd)) if *last == crowd => *count += 1,
-            (_, crowd) => places.push((crowd.unwrap_or(name), usize::from(crowd.is_some()))),
-        }
-    }
-    let place =
-        |(name, count): &(&str, usize)| if *count > 0 { format!("{count} of {name}") } else { (*name).to_owned() };
-    places.iter().map(place).collect::<Vec<_>>().join(", ")
+/// The order at the end of the vehicles that are listed by name; `None` if there are crowds and at most one such vehicle.
+fn order_in_words(report: &Report, crowds: &[Crowd<'_>]) -> Option<String> {
+    let is_named = |name: &&str| report.vehicle(name).is_none_or(|vehicle| !is_in(crowds, vehicle));
+    let named: Vec<&str> = report.order_of_driven().into_iter().filter(is_named).collect();
+    (crowds.is_empty() || named.len() > 1).then(|| named.join(", "))
 }
 
 /// The belief of a driver about another one: the likely kinds of driver, and the one that it plans for.

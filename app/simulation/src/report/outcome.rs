@@ -1,7 +1,7 @@
 //! The outcome of a run, as plain values.
 
 use interplay_planners::State;
-use interplay_scenarios::{Vehicle, readable};
+use interplay_scenarios::{Scenario, readable};
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
@@ -100,6 +100,12 @@ pub struct VehicleReport {
     pub name: String,
     /// The kind of its driver.
     pub driver: String,
+    /// The flow of which it came; `None` if the scenario states it by itself.
+    #[serde(skip)]
+    pub flow: Option<String>,
+    /// Whether it is the ego.
+    #[serde(skip)]
+    pub is_ego: bool,
     /// When it reached its goal \[s\].
     pub completed_s: Option<f64>,
     /// Whether it started away from its goal.
@@ -187,9 +193,12 @@ impl VehicleReport {
     }
 
     /// Builds the outcome from the measures.
-    pub(super) fn new(vehicle: &Vehicle, measured: &VehicleMeasures, standing: Vec<Wait>) -> Self {
+    pub(super) fn new(scenario: &Scenario, index: usize, measured: &VehicleMeasures, standing: Vec<Wait>) -> Self {
+        let vehicle = &scenario.vehicles[index];
         VehicleReport {
             name: vehicle.name.clone(),
+            flow: scenario.flows.of(&vehicle.name).map(str::to_owned),
+            is_ego: index == scenario.ego_index(),
             driver: vehicle.driver.kind().to_owned(),
             is_obstacle: vehicle.obstacle.is_some(),
             keeps_rules: vehicle.keeps_rules(),

@@ -2,8 +2,8 @@
 //!
 //! - `arrival`: when, where and how fast each vehicle comes, drawn from the seed.
 //!
-//! A vehicle of a flow is thus a vehicle like any other: it has defaults, checks, a budget, a recording. No other folder
-//! knows of flows.
+//! A vehicle of a flow is thus a vehicle like any other: it has defaults, checks, a budget, a recording. Reports count the
+//! vehicles of a flow together.
 
 mod arrival;
 
