@@ -42,10 +42,8 @@ pub struct Report {
     /// Which vehicle went first in each zone where the routes of two vehicles cross or merge and that one of them entered.
     pub right_of_way: Vec<Passage>,
     /// The rules of the road that vehicles broke, with times and places.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub broken_rules: Vec<BrokenRule>,
     /// The deadlocks, with the times at which they were detected.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub deadlocks: Vec<Deadlock>,
     /// Names from the front of the road to its rear, at the end; at an intersection, in the order of crossing.
     pub order: Vec<String>,
@@ -78,7 +76,8 @@ pub struct CounterfactualReport {
     pub run: Box<Report>,
 }
 
-const VEHICLE_KEYS: [&str; 5] = ["phase_digests", "collisions", "right_of_way", "order", "vehicles"];
+const VEHICLE_KEYS: [&str; 7] =
+    ["phase_digests", "collisions", "right_of_way", "broken_rules", "deadlocks", "order", "vehicles"];
 
 impl Serialize for Report {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
