@@ -274,7 +274,7 @@ pub struct Expectation {
     pub got: Value,
     /// Whether it held.
     pub passed: bool,
-    /// Day or zone of the worst value, if it concerns several.
+    /// Day or zone of the worst value, if it concerns several; the contacts, if there were to be none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<String>,
 }
