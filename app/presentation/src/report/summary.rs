@@ -18,7 +18,7 @@ pub fn summary(title: &str, report: &Report) -> String {
 fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::Result {
     // A building is simulated so fast that the factor says nothing.
     let factor = Some(report.simulated_s / report.wall_s.max(1e-9)).filter(|_| !report.vehicles.is_empty());
-    let factor = factor.map_or_else(String::new, |factor| format!(" ({factor:.0} times real time)"));
+    let factor = factor.map_or_else(String::new, |factor| format!(" ({} times real time)", factor_in_words(factor)));
     let simulated = match &report.building {
         Some(building) if report.vehicles.is_empty() => counted(building.iterations.len(), "day"),
         _ => format!("{:?} s", to_milliseconds(report.simulated_s)),
@@ -33,6 +33,15 @@ fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::R
     }
     write_expectations(text, report)?;
     write_counterfactuals(text, &report.counterfactuals)
+}
+
+/// A factor as a whole number, or below one with a digit that tells it from 0: `19`, `0.3`, `2.0e-3`.
+fn factor_in_words(factor: f64) -> String {
+    match factor {
+        _ if factor >= 0.95 => format!("{factor:.0}"),
+        _ if factor >= 0.05 => format!("{factor:.1}"),
+        _ => format!("{factor:.1e}"),
+    }
 }
 
 /// Rounds a time to milliseconds, since the steps of full-size roads are not round numbers \[s\].
@@ -201,6 +210,12 @@ fn crowd_row(crowd: &Crowd<'_>) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_run_slower_than_real_time_is_not_said_to_take_0_times_it() {
+        assert_eq!([19.4, 1.2, 0.97, 0.3, 0.06].map(factor_in_words), ["19", "1", "1", "0.3", "0.1"]);
+        assert_eq!(factor_in_words(0.002), "2.0e-3");
+    }
 
     #[test]
     fn a_reported_belief_names_all_likely_kinds_and_the_predicted_one() {
