@@ -5,7 +5,8 @@ use std::sync::Arc;
 use interplay_planners::{Route, State};
 use interplay_scenarios::{Road, Task, Vehicle};
 
-/// Whether and when a vehicle completes its [`Task`]. A vehicle that starts at its goal has no task, nor has a vehicle that follows a record.
+/// Whether and when a vehicle completes its [`Task`]. A vehicle that starts at its goal has no task, nor has a vehicle that follows a
+/// record.
 #[derive(Clone, Debug)]
 pub struct Completion {
     route: Arc<Route>,

@@ -29,7 +29,9 @@ pub struct Wait {
     pub waited_s: f64,
     /// The vehicles for which it waited; empty if there were none.
     pub waits_for: Vec<String>,
-    /// The reason, or the last one before it sets off, in a few words: `priority`, `sign`, `traffic light`, X for each other`, `lets ego pass`, `as its script says`, or `no reason found`.
+    /// The reason, or the last one before it sets off, in a few words: `priority`, `sign`, `traffic light`, `ahead of it`,
+    /// `in its way`, `to leave the passage`, `before it passes van`, `no room beside van`, `does not pass van`,
+    /// `they wait for each other`, `lets ego pass`, `after a collision`, `as its script says`, or `no reason found`.
     pub reason: String,
 }
 
@@ -200,7 +202,9 @@ impl Waits {
         for [first, second] in frame.collisions.iter().map(|collision| &collision.between) {
             for (own, other) in [(first, second), (second, first)] {
                 let index = frame.vehicles.iter().position(|vehicle| vehicle.name == *own);
-                index.into_iter().for_each(|index| drop(self.touched[index].insert(other.clone())));
+                if let Some(index) = index {
+                    self.touched[index].insert(other.clone());
+                }
             }
         }
     }

@@ -11,8 +11,8 @@ use crate::model::traffic::real_time::Deadline;
 impl Scenario {
     /// Whether runs with different seeds may differ. If not, they are bit-identical.
     ///
-    /// The seed decides the change of the starts, the vehicles of flows and the errors of sensors; and, in a building, the synthetic weather, errors of
-    /// forecasts, and people.
+    /// The seed decides the change of the starts, the vehicles of flows and the errors of sensors; and, in a building, the synthetic weather,
+    /// errors of forecasts, and people.
     pub fn depends_on_seed(&self) -> bool {
         let jitter = self.start_jitter;
         let starts_vary = jitter.position_m > 0.0 || jitter.speed_mps > 0.0;

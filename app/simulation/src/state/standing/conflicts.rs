@@ -13,10 +13,12 @@ impl Standing<'_> {
     pub(super) fn because_of(&self, index: usize, other: usize) -> StandingReason {
         let name = self.vehicles[other].name.clone();
         let along = self.cosine_to_route(index, other);
-        match along {
-            _ if along > std::f64::consts::FRAC_1_SQRT_2 => StandingReason::Behind(name),
-            _ if along < 0.0 && self.meet_in_passage(index, other) => StandingReason::Passage(name),
-            _ => StandingReason::InWay(name),
+        if along > std::f64::consts::FRAC_1_SQRT_2 {
+            StandingReason::Behind(name)
+        } else if along < 0.0 && self.meet_in_passage(index, other) {
+            StandingReason::Passage(name)
+        } else {
+            StandingReason::InWay(name)
         }
     }
 
