@@ -175,18 +175,21 @@ impl<'a> Standing<'a> {
         let (vehicle, scale) = (&self.vehicles[index], self.scale(index));
         let front_m = self.along_m(index) + vehicle.body.front_m;
         let rules = &self.frame.vehicles[index].rules;
+        let line_m = rules.stop_line_m.filter(|line_m| line_m - front_m < NEAR_M * scale);
+        let stands_at_light = || rules.waits_for.is_empty() && line_m.is_some_and(|line_m| self.is_lit(index, line_m));
         if let Some(obstacle) = self.ahead(index, NEAR_M * scale) {
             if self.wants_to_drive(obstacle) {
                 return Some(self.because_of(index, obstacle));
             }
-            if self.walks_across(index, obstacle) {
-                return Some(self.before_walker(index, obstacle));
-            }
-            if let Some(reason) = self.before_passing(index, obstacle) {
-                return Some(reason);
+            let reason = match self.walks_across(index, obstacle) {
+                true if stands_at_light() => None,
+                true => Some(self.before_walker(index, obstacle)),
+                false => self.before_passing(index, obstacle),
+            };
+            if reason.is_some() {
+                return reason;
             }
         }
-        let line_m = rules.stop_line_m.filter(|line_m| line_m - front_m < NEAR_M * scale);
         if let Some(name) = rules.keeps_clear_behind.as_ref().filter(|_| line_m.is_some()) {
             return Some(StandingReason::Behind(name.clone()));
         }
