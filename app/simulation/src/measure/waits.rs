@@ -332,7 +332,8 @@ mod tests {
     #[test]
     fn vehicles_that_have_crashed_are_not_deadlocked() {
         let in_circle: [&[&str]; 2] = [&["main"], &["ego"]];
-        for waits_for in [[&[], &[]], in_circle] {
+        let unexplained: [&[&str]; 2] = [&[], &[]];
+        for waits_for in [unexplained, in_circle] {
             let (waits, events) = stood_after(Some(["ego", "main"]), 120, waits_for);
             assert!(events.is_empty() && waits.deadlocks().is_empty(), "{:?}", waits.deadlocks());
             assert_eq!(waits.of(0)[0].sentence(), "stood 12.0 s (after a collision)");
