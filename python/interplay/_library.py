@@ -183,6 +183,8 @@ class Report(Record):
     smallest_gap: Any
     shortest_time_to_collision: Any
     right_of_way: builtins.list[Any]
+    broken_rules: builtins.list[Any]
+    deadlocks: builtins.list[Any]
     order: builtins.list[str]
     vehicles: builtins.list[VehicleReport]
     building: Any

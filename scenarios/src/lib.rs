@@ -93,6 +93,7 @@ pub use model::building::plant::{BuildingPlant, NetworkPlantConfig, SocketPlantC
 pub use model::building::weather::{CsvWeather, EpwFile, EpwWeather, Synthetic, WeatherSource};
 pub use model::classes::{NamedScale, ScenarioScale, VehicleClass};
 pub use model::derived::narrowest_lane::{ConflictZone, DetectorLine};
+pub use model::derived::task::Task;
 pub use model::derived::timetable::TimetableError;
 pub use model::expectations::counterfactual::CounterfactualConfig;
 pub use model::expectations::expect::{
@@ -105,6 +106,7 @@ pub use model::metric::{
 };
 pub use model::remark::{ScenarioRemark, ScenarioRemarks};
 pub use model::scenario::{BudgetLimits, Counterfactual, Scenario, Stay, Vehicle};
+pub use model::traffic::flows::ScenarioFlows;
 pub use model::traffic::goal::GoalConfig;
 pub use model::traffic::lane_reference::{DetectorConfig, LaneReference};
 pub use model::traffic::light::LightConfig;

@@ -30,6 +30,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "app/cli",
         &[
+            "common",
             "app/play",
             "planners",
             "building",

@@ -27,7 +27,7 @@ fn the_report_of_a_run_has_the_documented_keys() {
     has_keys(
         &report,
         "scenario passed seed simulated_s wall_s digest phase_digests collisions contact_by_ego min_gap_m smallest_gap \
-         shortest_time_to_collision right_of_way order vehicles expectations counterfactuals",
+         shortest_time_to_collision right_of_way broken_rules deadlocks order vehicles expectations counterfactuals",
     );
     assert_eq!(report["scenario"], "lane-change/front-nice");
     assert_eq!(report["seed"], 5);

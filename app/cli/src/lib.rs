@@ -112,7 +112,7 @@ fn run_command(registry: &Registry, arguments: impl IntoIterator<Item = OsString
     let interplay = match parsed.and_then(|found| Interplay::from_arg_matches(&found)) {
         Ok(interplay) => interplay,
         Err(said) if said.use_stderr() => {
-            output::print_usage_error(&said);
+            output::print_usage_error(&output::usage::with_advice(said, &command));
             return ExitStatus::BadInput;
         }
         Err(asked) => return output::ended(asked.print().and_then(|()| std::io::stdout().flush())),

@@ -85,6 +85,9 @@ fn expectations_on_passing_orders_and_contacts_are_judged() {
     assert!(verdict(crash, &format!("expect.collisions=[['{a}', '{b}']]"), "collisions"));
     assert!(verdict(crash, &format!("expect.collisions=[['{b}', '{a}']]"), "collisions"), "in either order of names");
     assert!(verdict(crash, "expect.no_collision=false", "no_collision"));
+    let failed = judged(crash, &["expect.no_collision=true".to_owned()], "no_collision");
+    let at = failed.at.as_deref().unwrap_or_default();
+    assert!(!failed.passed && at.starts_with("crossing drove into ego at 1.57 s"), "{failed:?}");
     assert!(!verdict(DRIVE, "expect.no_collision=false", "no_collision"));
 }
 

@@ -2,15 +2,15 @@
 //!
 //! The first line that does not begin with `#` is the header: the title of the times, then a title for each series. Times are hours
 //! (`hour`) or seconds (`time_s`) since the first midnight, or dates with a time; they rise by equal intervals. Fields are separated by
-//! commas, semicolons or tabs, and may be quoted; decimals may have a comma where it separates nothing. Cells that are empty, `NA` or
-//! `NaN` are missing.
+//! commas, semicolons or tabs, and may be quoted; decimals may have a comma where it separates nothing. Cells that are empty, `NA`,
+//! `NaN` or, as Home Assistant writes, `unavailable` are missing.
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 use interplay_common::cell::shown_cell;
 use jiff::civil::{Date, Weekday};
 
 use super::clock::{RowTime, TimeForm};
-use super::home_assistant;
+use super::home_assistant::{Export, is_without_value};
 
 /// The most that the interval between two rows may differ from the first one, as a share of it.
 const MAX_JITTER: f64 = 0.01;
@@ -32,8 +32,10 @@ pub struct SeriesTable {
     pub columns: Vec<SeriesColumn>,
     /// The line of the header, from one.
     pub header_line: usize,
-    /// The line of each row, from one.
+    /// The line of each row, from one; in an export of Home Assistant, that of the last change of a state.
     pub lines: Vec<usize>,
+    /// In an export of Home Assistant, the line that states each cell of each row; empty otherwise.
+    pub cell_lines: Vec<Vec<usize>>,
 }
 
 /// A series of a table.
@@ -69,9 +71,17 @@ impl SeriesTable {
     /// intervals.
     pub fn parse(text: &str) -> Result<Self, SeriesError> {
         // Carriage returns would make the reader count lines wrongly.
-        let text =
-            home_assistant::table(text).unwrap_or_else(|| text.trim_start_matches('\u{feff}').replace("\r\n", "\n"));
-        let text = text.as_str();
+        let Some(export) = Export::read(text) else {
+            return Self::of_table(&text.trim_start_matches('\u{feff}').replace("\r\n", "\n"), false);
+        };
+        let table = Self::of_table(&export.table, true)?;
+        let cell_lines: Vec<Vec<usize>> = table.lines.iter().map(|line| export.lines[line - 2].clone()).collect();
+        let lines = cell_lines.iter().map(|lines| lines.iter().copied().max().unwrap_or(1)).collect();
+        Ok(Self { lines, cell_lines, ..table })
+    }
+
+    /// Reads a table with plain ends of lines. In one that is made of the states of entities, all states that are not numbers are missing.
+    fn of_table(text: &str, are_states: bool) -> Result<Self, SeriesError> {
         let before = text.lines().take_while(|line| line.starts_with('#') || line.trim().is_empty()).count();
         let Some(header_line) = text.lines().nth(before) else {
             return Err(SeriesError::new(1, "the table is empty: its first line must be a header"));
@@ -97,7 +107,8 @@ impl SeriesTable {
                 let title = &column.title;
                 let problem =
                     || SeriesError::new(*line, format!("{} is {}, not a number", shown_cell(title), shown_cell(cell)));
-                column.values.push(number(cell, separator).ok_or_else(problem)?);
+                let value = number(cell, separator).or(are_states.then_some(f64::NAN));
+                column.values.push(value.ok_or_else(problem)?);
             }
         }
         let first = times[0].0;
@@ -109,6 +120,7 @@ impl SeriesTable {
             columns,
             header_line: before + 1,
             lines: row_lines,
+            cell_lines: Vec::new(),
         })
     }
 
@@ -124,7 +136,10 @@ impl SeriesTable {
 
     /// The line of the first missing value of a series.
     pub fn missing_line(&self, column: &SeriesColumn) -> Option<usize> {
-        column.values.iter().position(|value| value.is_nan()).map(|row| self.lines[row])
+        let row = column.values.iter().position(|value| value.is_nan())?;
+        let index = self.columns.iter().position(|other| other.title == column.title);
+        let of_cell = index.and_then(|index| self.cell_lines.get(row)?.get(index)).copied();
+        Some(of_cell.unwrap_or(self.lines[row]))
     }
 }
 
@@ -229,7 +244,8 @@ fn duration(seconds: f64) -> String {
 
 /// The number in a cell, NaN where it is missing; `None` where it is neither.
 fn number(cell: &str, separator: u8) -> Option<f64> {
-    if cell.is_empty() || ["na", "nan", "null", "-"].contains(&cell.to_ascii_lowercase().as_str()) {
+    let is_missing = |word: &str| ["na", "nan", "null", "-"].contains(&word) || is_without_value(word);
+    if cell.is_empty() || is_missing(&cell.to_ascii_lowercase()) {
         return Some(f64::NAN);
     }
     let parsed = if separator == b',' { cell.parse() } else { cell.replace(',', ".").parse() };

@@ -24,7 +24,7 @@ use crate::model::remark::ScenarioRemark;
 use crate::model::scenario::{Counterfactual, Scenario};
 use crate::resolve::budget;
 use crate::resolve::check::{consistency, shape};
-use crate::resolve::defaults::{expand, with_defaults};
+use crate::resolve::defaults::{expand, with_defaults, with_driver_kinds};
 use crate::resolve::flows::with_flows;
 use crate::resolve::placement::KnownRoads;
 use crate::resolve::resolve;
@@ -227,7 +227,7 @@ pub(crate) fn assemble_on(
     known_roads: &KnownRoads,
 ) -> Result<Scenario, Vec<Fault>> {
     let schema = registry.complete();
-    let tree = &with_defaults(with_flows(tree.clone(), schema)?, schema)?;
+    let tree = &with_defaults(with_flows(with_driver_kinds(tree.clone()), schema)?, schema)?;
     if let Some(fault) = plan_in_its_place(tree) {
         return Err(vec![fault]);
     }

@@ -31,6 +31,7 @@ use crate::model::expectations::expect::Expect;
 use crate::model::metric::RegisteredMetrics;
 use crate::model::remark::ScenarioRemarks;
 use crate::model::traffic::conduct::Conduct;
+use crate::model::traffic::flows::ScenarioFlows;
 use crate::model::traffic::goal::GoalConfig;
 use crate::model::traffic::lane_reference::DetectorConfig;
 use crate::model::traffic::light::LightConfig;
@@ -85,6 +86,8 @@ pub struct Scenario {
     pub start_jitter: StartJitter,
     /// The vehicles, in the order of the file, and after them the obstacles.
     pub vehicles: Vec<Vehicle>,
+    /// The flows of which some of the vehicles come.
+    pub flows: ScenarioFlows,
     /// The building, if there is one.
     pub building: Option<BuildingConfig>,
     /// The weather around the building.

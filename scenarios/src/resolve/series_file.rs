@@ -58,6 +58,7 @@ impl SeriesFile {
             columns: Vec::new(),
             header_line: 1,
             lines: Vec::new(),
+            cell_lines: Vec::new(),
         };
         let mut file = Self { title, found, table: empty, text, rank, what };
         file.table = SeriesTable::parse(&file.text)

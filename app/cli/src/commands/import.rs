@@ -97,7 +97,8 @@ impl Import {
         let named = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let records = beside("csv");
         let (mut file, rows) = imported.with_records_in(&named(&records));
-        let warning = expect_and_warn(&mut file);
+        let are_replaced = self.replace.iter().any(|replacement| replacement.vehicle.is_none());
+        let warning = expect_and_warn(&mut file, are_replaced);
         let mut head = String::new();
         let _ = writeln!(head, "# Imported from {}.", plain_line(&named(&self.file)));
         for note in imported.notes.iter().chain(&warning) {
@@ -117,8 +118,8 @@ impl Import {
 }
 
 /// Expects that no two vehicles touch, and that an ego which has to reach another lane does; returns a warning where vehicles follow
-/// records, since these do not react.
-fn expect_and_warn(file: &mut ScenarioFile) -> Option<String> {
+/// records, since these do not react. `are_replaced`: whether all that can be replaced are.
+fn expect_and_warn(file: &mut ScenarioFile, are_replaced: bool) -> Option<String> {
     file.expect.no_collision = Some(true);
     let ego = file.vehicles.iter().find(|vehicle| vehicle.name == "ego" && vehicle.route.len() > 1);
     let completes = ego.map(|ego| Completes { vehicle: ego.name.clone(), after_s: None, before_s: None });
@@ -127,9 +128,9 @@ fn expect_and_warn(file: &mut ScenarioFile) -> Option<String> {
         vehicle.driver.as_ref().and_then(|driver| driver.get("kind")?.as_str()) == Some("recorded")
     };
     let recorded = file.vehicles.iter().filter(is_recorded).count();
-    (recorded > 0).then(|| {
-        format!("recorded vehicles: {recorded} follow their records and react to no other; `--replace all` gives them drivers")
-    })
+    let follow = if recorded == 1 { "follows its record and reacts" } else { "follow their records and react" };
+    let remedy = if are_replaced { "" } else { "; `--replace all` gives them drivers" };
+    (recorded > 0).then(|| format!("recorded vehicles: {recorded} {follow} to no other{remedy}"))
 }
 
 /// The text of the scenario, and that of its network where it is large.

@@ -1,6 +1,7 @@
 //! `interplay list`
 
 use clap::Args;
+use interplay_common::spelling::nearest;
 use interplay_scenarios::{Scenario, embedded, load, names_matching};
 use serde_json::json;
 
@@ -26,9 +27,7 @@ impl List {
         for pattern in &self.names {
             let found = names_matching(pattern);
             if found.is_empty() {
-                print_error(&format!(
-                    "no scenario is called `{pattern}`; `interplay list` without it shows all of them"
-                ));
+                print_error(&no_such(pattern));
                 return ExitStatus::BadInput;
             }
             names.extend(found);
@@ -56,6 +55,18 @@ impl List {
     }
 }
 
+/// The error for a pattern that fits no scenario, with the family or the scenario that was probably meant.
+fn no_such(pattern: &str) -> String {
+    let known = || embedded().iter().map(|file| file.name);
+    let families = known().filter_map(|name| Some(name.rsplit_once('/')?.0));
+    let meant = nearest(pattern, families.chain(known()));
+    let remedy = meant.map_or_else(
+        || "`interplay list` without it shows all of them".to_owned(),
+        |meant| format!("did you mean `{meant}`?"),
+    );
+    format!("no scenario is called `{pattern}`; {remedy}")
+}
+
 /// A heading for each family, and a line for each of its scenarios.
 fn by_family(rows: &[(&str, Scenario)]) -> String {
     let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
@@ -71,4 +82,19 @@ fn by_family(rows: &[(&str, Scenario)]) -> String {
         text += &format!("  {name:width$}  {}{figure}\n", scenario.shows);
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_family_or_scenario_is_corrected() {
+        assert_eq!(no_such("peple"), "no scenario is called `peple`; did you mean `people`?");
+        assert_eq!(
+            no_such("narrow-pasage/nice"),
+            "no scenario is called `narrow-pasage/nice`; did you mean `narrow-passage/nice`?"
+        );
+        assert!(no_such("*/elephant-and-castle").ends_with("`interplay list` without it shows all of them"));
+    }
 }

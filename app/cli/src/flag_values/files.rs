@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use interplay_scenarios::{
-    FolderScenario, LoadError, Override, Registry, Scenario, embedded, files_below, names_matching,
+    FolderScenario, LoadError, Override, Registry, Scenario, Street, embedded, files_below, names_matching,
 };
 use thiserror::Error;
 
@@ -174,9 +174,9 @@ pub(crate) fn is_page_file(folder: &Path, path: &Path) -> bool {
     is_of_page && is_same_file(&folder.join(name), path)
 }
 
-/// What a run is called: an authored scenario by its name, a file by its own name, without folders and extension.
+/// What a run is called: an authored scenario and a generated street by its name, a file by its own name, without folders and extension.
 pub(crate) fn short_name(scenario: &str) -> String {
-    if embedded().iter().any(|file| file.name == scenario) {
+    if Street::named(scenario).is_some() || embedded().iter().any(|file| file.name == scenario) {
         return scenario.to_owned();
     }
     let stem = Path::new(scenario).file_stem();
@@ -191,6 +191,8 @@ mod tests {
     fn run_names_follow_scenarios_and_stay_in_their_folder() {
         for (scenario, name) in [
             ("lane-change/front-nice", "lane-change/front-nice"),
+            ("streets/narrow/1", "streets/narrow/1"),
+            ("streets/no-such-kind/1", "1"),
             ("my.toml", "my"),
             ("my", "my"),
             ("../my", "my"),

@@ -2,6 +2,7 @@
 
 pub(crate) mod error;
 pub(crate) mod progress;
+pub(crate) mod usage;
 
 use std::borrow::Cow;
 use std::env;

@@ -1,4 +1,4 @@
-//! Vehicles of a flow in one line: how many came, left and wait outside, their speed and their delay.
+//! Vehicles of a flow, and many that follow records, in one line: how many came, left and wait outside, their speed and their delay.
 
 use interplay_simulation::measure::Travel;
 use interplay_simulation::report::VehicleReport;
@@ -6,7 +6,12 @@ use interplay_simulation::report::VehicleReport;
 /// Fewer vehicles than this are listed by name.
 const MIN_VEHICLES: usize = 4;
 
-/// Vehicles that are called alike, with a number: `west-1`, `west-2`.
+/// Fewer vehicles than this that follow records are listed by name.
+const MIN_RECORDED: usize = 12;
+/// The common name of vehicles that follow records.
+const RECORDED: &str = "recorded";
+
+/// Vehicles of one flow, or those that follow records.
 pub(super) struct Crowd<'a> {
     /// The common name.
     pub name: &'a str,
@@ -17,18 +22,15 @@ impl<'a> Crowd<'a> {
     /// The crowds among the vehicles, and the vehicles outside of them, both in the scenario's order.
     pub fn split(vehicles: &'a [VehicleReport]) -> (Vec<Crowd<'a>>, Vec<&'a VehicleReport>) {
         let mut crowds: Vec<Crowd<'a>> = Vec::new();
-        for vehicle in vehicles.iter().filter(|vehicle| !vehicle.is_obstacle) {
-            let Some(name) = flow_of(&vehicle.name) else { continue };
+        for vehicle in vehicles {
+            let Some(name) = crowd_of(vehicle) else { continue };
             match crowds.iter_mut().find(|crowd| crowd.name == name) {
                 Some(crowd) => crowd.vehicles.push(vehicle),
                 None => crowds.push(Crowd { name, vehicles: vec![vehicle] }),
             }
         }
-        crowds.retain(|crowd| crowd.vehicles.len() >= MIN_VEHICLES);
-        let is_alone = |vehicle: &&VehicleReport| {
-            flow_of(&vehicle.name).is_none_or(|name| crowds.iter().all(|crowd| crowd.name != name))
-        };
-        let alone = vehicles.iter().filter(is_alone).collect();
+        crowds.retain(|crowd| crowd.vehicles.len() >= least_of(crowd.vehicles[0]));
+        let alone = vehicles.iter().filter(|vehicle| !is_in(&crowds, vehicle)).collect();
         (crowds, alone)
     }
 
@@ -59,8 +61,18 @@ impl<'a> Crowd<'a> {
     }
 }
 
-/// The name before the number of a vehicle of a flow.
-pub(super) fn flow_of(name: &str) -> Option<&str> {
-    let (flow, number) = name.rsplit_once('-')?;
-    (!number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())).then_some(flow)
+/// Whether a vehicle is in one of these crowds.
+pub(super) fn is_in(crowds: &[Crowd<'_>], vehicle: &VehicleReport) -> bool {
+    crowd_of(vehicle).is_some_and(|name| crowds.iter().any(|crowd| crowd.name == name))
+}
+
+/// The name of the crowd to which a vehicle may belong: a flow, or the recorded traffic around an ego.
+fn crowd_of(vehicle: &VehicleReport) -> Option<&str> {
+    let follows_record = vehicle.driver == RECORDED && !vehicle.is_ego && !vehicle.is_obstacle;
+    vehicle.flow.as_deref().or(follows_record.then_some(RECORDED))
+}
+
+/// The size from which vehicles like this one are a crowd.
+fn least_of(vehicle: &VehicleReport) -> usize {
+    if vehicle.flow.is_some() { MIN_VEHICLES } else { MIN_RECORDED }
 }

@@ -8,7 +8,7 @@ use interplay_simulation::report::{BeliefReport, CounterfactualReport, PlansRepo
 
 use super::building;
 use super::columns::{Align, write_table, written};
-use super::crowd::{Crowd, flow_of};
+use super::crowd::{Crowd, is_in};
 
 /// The report as text: goals, passing order, smallest gap, planning times, expectations.
 pub fn summary(title: &str, report: &Report) -> String {
@@ -18,7 +18,7 @@ pub fn summary(title: &str, report: &Report) -> String {
 fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::Result {
     // A building is simulated so fast that the factor says nothing.
     let factor = Some(report.simulated_s / report.wall_s.max(1e-9)).filter(|_| !report.vehicles.is_empty());
-    let factor = factor.map_or_else(String::new, |factor| format!(" ({factor:.0} times real time)"));
+    let factor = factor.map_or_else(String::new, |factor| format!(" ({} times real time)", factor_in_words(factor)));
     let simulated = match &report.building {
         Some(building) if report.vehicles.is_empty() => counted(building.iterations.len(), "day"),
         _ => format!("{:?} s", to_milliseconds(report.simulated_s)),
@@ -33,6 +33,15 @@ fn write_summary(text: &mut String, title: &str, report: &Report) -> std::fmt::R
     }
     write_expectations(text, report)?;
     write_counterfactuals(text, &report.counterfactuals)
+}
+
+/// A factor as a whole number, or below one with a digit that tells it from 0: `19`, `0.3`, `2.0e-3`.
+fn factor_in_words(factor: f64) -> String {
+    match factor {
+        _ if factor >= 0.95 => format!("{factor:.0}"),
+        _ if factor >= 0.05 => format!("{factor:.1}"),
+        _ => format!("{factor:.1e}"),
+    }
 }
 
 /// Rounds a time to milliseconds, since the steps of full-size roads are not round numbers \[s\].
@@ -50,7 +59,9 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
             writeln!(text, "  {} reached its goal at {:?} s", vehicle.name, to_milliseconds(time_s))?;
         }
     }
-    writeln!(text, "  order at the end: {}", order_in_words(report, &crowds))?;
+    if let Some(order) = order_in_words(report, &crowds) {
+        writeln!(text, "  order at the end: {order}")?;
+    }
     match report.min_gap_m() {
         Some(gap) => writeln!(text, "  smallest gap of the ego: {gap:.3} m")?,
         None => writeln!(text, "  the ego is the only vehicle")?,
@@ -78,19 +89,11 @@ fn write_driving(text: &mut String, report: &Report) -> std::fmt::Result {
     write_vehicles(text, &crowds, &alone)
 }
 
-/// The order at the end; the vehicles of a crowd that follow one another are counted.
-fn order_in_words(report: &Report, crowds: &[Crowd<'_>]) -> String {
-    let mut places: Vec<(&str, usize)> = Vec::new();
-    for name in report.order_of_driven() {
-        let crowd = flow_of(name).filter(|flow| crowds.iter().any(|crowd| crowd.name == *flow));
-        match (places.last_mut(), crowd) {
-            (Some((last, count)), Some(crowd)) if *last == crowd => *count += 1,
-            (_, crowd) => places.push((crowd.unwrap_or(name), usize::from(crowd.is_some()))),
-        }
-    }
-    let place =
-        |(name, count): &(&str, usize)| if *count > 0 { format!("{count} of {name}") } else { (*name).to_owned() };
-    places.iter().map(place).collect::<Vec<_>>().join(", ")
+/// The order at the end of the vehicles that are listed by name; `None` if there are crowds and at most one such vehicle.
+fn order_in_words(report: &Report, crowds: &[Crowd<'_>]) -> Option<String> {
+    let is_named = |name: &&str| report.vehicle(name).is_none_or(|vehicle| !is_in(crowds, vehicle));
+    let named: Vec<&str> = report.order_of_driven().into_iter().filter(is_named).collect();
+    (crowds.is_empty() || named.len() > 1).then(|| named.join(", "))
 }
 
 /// The belief of a driver about another one: the likely kinds of driver, and the one that it plans for.
@@ -207,6 +210,12 @@ fn crowd_row(crowd: &Crowd<'_>) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_run_slower_than_real_time_is_not_said_to_take_0_times_it() {
+        assert_eq!([19.4, 1.2, 0.97, 0.3, 0.06].map(factor_in_words), ["19", "1", "1", "0.3", "0.1"]);
+        assert_eq!(factor_in_words(0.002), "2.0e-3");
+    }
 
     #[test]
     fn a_reported_belief_names_all_likely_kinds_and_the_predicted_one() {

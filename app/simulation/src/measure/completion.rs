@@ -2,17 +2,11 @@
 
 use std::sync::Arc;
 
-use interplay_planners::{Body, Route, State};
-use interplay_scenarios::{Road, Vehicle};
+use interplay_planners::{Route, State};
+use interplay_scenarios::{Road, Task, Vehicle};
 
-/// Tolerance of the lateral position at the goal, as a share of the lane's width.
-const LATERAL_TOLERANCE_SHARE: f64 = 0.15;
-
-/// Whether and when a vehicle completes its task. On a road of parallel lanes it has done so once its centre is within
-/// 15 % of a lane's width of the goal's lateral position; at an intersection, once its rear bumper has left the
-/// conflict zone; on a network, once its rear bumper is on the last lane of its route.
-///
-/// A vehicle that starts at its goal has no task, nor has a vehicle that follows a record.
+/// Whether and when a vehicle completes its [`Task`]. A vehicle that starts at its goal has no task, nor has a vehicle that follows a
+/// record.
 #[derive(Clone, Debug)]
 pub struct Completion {
     route: Arc<Route>,
@@ -22,41 +16,14 @@ pub struct Completion {
     pub completed_s: Option<f64>,
 }
 
-#[derive(Clone, Copy, Debug)]
-enum Task {
-    /// A lateral position.
-    Lane { lateral_m: f64, tolerance_m: f64 },
-    /// The far side of the other road, for the whole body.
-    Cross { end_m: f64, body: Body },
-    /// The last lane of the route, for the whole body.
-    LastLane { from_m: f64, body: Body },
-}
-
 impl Completion {
     /// A measure of whether a vehicle completes its task on this road.
     pub fn new(vehicle: &Vehicle, road: &Road) -> Self {
-        let route = Arc::clone(&vehicle.route);
-        let last = route.legs.last().filter(|_| road.parallel_lanes().is_none() && route.legs.len() > 1);
-        let task = match (road.conflict_zone_m(vehicle.road), last) {
-            (Some([_, end_m]), _) => Task::Cross { end_m, body: vehicle.body },
-            (None, Some(leg)) => Task::LastLane { from_m: leg.from_m, body: vehicle.body },
-            (None, None) => Task::Lane {
-                lateral_m: route.across(vehicle.target(road).position()),
-                tolerance_m: LATERAL_TOLERANCE_SHARE * road.lane_width_m(),
-            },
-        };
-        let mut completion = Completion { route, task, has_task: false, completed_s: None };
-        completion.has_task = vehicle.driver.record().is_none() && !completion.is_there(&vehicle.start);
-        completion
-    }
-
-    fn is_there(&self, state: &State) -> bool {
-        let position = state.position();
-        match self.task {
-            Task::Lane { lateral_m, tolerance_m } => (self.route.across(position) - lateral_m).abs() <= tolerance_m,
-            Task::Cross { end_m: place_m, body } | Task::LastLane { from_m: place_m, body } => {
-                self.route.along(position) - body.rear_m > place_m
-            }
+        Completion {
+            route: Arc::clone(&vehicle.route),
+            task: vehicle.task(road),
+            has_task: vehicle.has_task(road),
+            completed_s: None,
         }
     }
 
@@ -77,7 +44,7 @@ impl Completion {
 
     /// Updates the measure with a state; returns whether the goal is reached for the first time.
     pub fn observe(&mut self, state: &State, time_s: f64) -> bool {
-        let reached = self.has_task && self.completed_s.is_none() && self.is_there(state);
+        let reached = self.has_task && self.completed_s.is_none() && self.task.is_done(&self.route, state);
         if reached {
             self.completed_s = Some(time_s);
         }

@@ -7,7 +7,7 @@ use interplay_scenarios::Scenario;
 use serde::Serialize;
 
 use crate::state::components::to_nanosecond;
-use crate::state::frame::{Event, Frame, Level, VehicleFrame};
+use crate::state::frame::{Event, Frame, Level};
 use crate::state::standing::{Standing, StandingReason};
 
 /// Shorter stops are not reported, for a real car \[s\].
@@ -30,8 +30,8 @@ pub struct Wait {
     /// The vehicles for which it waited; empty if there were none.
     pub waits_for: Vec<String>,
     /// The reason, or the last one before it sets off, in a few words: `priority`, `sign`, `traffic light`, `ahead of it`,
-    /// `before it passes van`, `no room beside van`,
-    /// `they wait for each other`, `lets ego pass`, `as its script says`, or `no reason found`.
+    /// `in its way`, `to leave the passage`, `before it passes van`, `no room beside van`, `does not pass van`,
+    /// `they wait for each other`, `lets ego pass`, `after a collision`, `as its script says`, or `no reason found`.
     pub reason: String,
 }
 
@@ -59,6 +59,8 @@ pub struct Waits {
     circles_s: BTreeMap<Vec<usize>, f64>,
     /// How long each vehicle has stood without a visible reason \[s\].
     unexplained_s: Vec<f64>,
+    /// The names of the vehicles that each has touched.
+    touched: Vec<BTreeSet<String>>,
     deadlocks: Vec<Deadlock>,
 }
 
@@ -85,12 +87,22 @@ impl Deadlock {
 
 const IN_A_CIRCLE: &str = "they wait for each other";
 const UNEXPLAINED: &str = "no reason found";
+const AFTER_COLLISION: &str = "after a collision";
 
-/// Why a vehicle stands that neither rules nor other vehicles stop: it lets another vehicle pass, or no reason is found.
-fn own_reason(seen: &VehicleFrame) -> String {
-    let behind = seen.plan.homotopy_class.iter().filter(|passing| passing.side == PassingSide::Behind);
-    let passing: Vec<&str> = behind.map(|passing| passing.of.as_str()).collect();
-    if passing.is_empty() { UNEXPLAINED.to_owned() } else { format!("lets {} pass", passing.join(", ")) }
+/// Why a vehicle stands that neither rules nor other vehicles stop: it lets a moving vehicle pass, it does not pass a stationary one, or
+/// no reason is found.
+fn own_reason(standing: &Standing<'_>, frame: &Frame, index: usize) -> String {
+    let behind = frame.vehicles[index].plan.homotopy_class.iter().filter(|passing| passing.side == PassingSide::Behind);
+    let (stationary, moving): (Vec<&str>, Vec<&str>) =
+        behind.map(|passing| passing.of.as_str()).partition(|name| standing.stationary(name).is_some());
+    match (moving.as_slice(), stationary.as_slice()) {
+        ([], []) => UNEXPLAINED.to_owned(),
+        ([], [obstacle, ..]) => {
+            let is_walled = standing.stationary(obstacle).is_some_and(|other| standing.is_walled(index, other));
+            if is_walled { format!("no room beside {obstacle}") } else { format!("does not pass {obstacle}") }
+        }
+        (moving, _) => format!("lets {} pass", moving.join(", ")),
+    }
 }
 
 /// The vehicles for which a vehicle waits, and the reason in words.
@@ -100,6 +112,8 @@ fn words(reason: &StandingReason) -> (Vec<String>, String) {
         StandingReason::Light => (Vec::new(), "traffic light".to_owned()),
         StandingReason::GivesWay(names) => (names.clone(), "priority".to_owned()),
         StandingReason::Behind(name) => (vec![name.clone()], "ahead of it".to_owned()),
+        StandingReason::Passage(name) => (vec![name.clone()], "to leave the passage".to_owned()),
+        StandingReason::InWay(name) => (vec![name.clone()], "in its way".to_owned()),
         StandingReason::Passing { waits_for, obstacle } => {
             (vec![waits_for.clone()], format!("before it passes {obstacle}"))
         }
@@ -116,6 +130,7 @@ impl Waits {
             last: vec![None; times.len()],
             circles_s: BTreeMap::new(),
             unexplained_s: vec![0.0; times.len()],
+            touched: vec![BTreeSet::new(); times.len()],
             deadlocks: Vec::new(),
             times,
         }
@@ -125,15 +140,18 @@ impl Waits {
     pub fn observe(&mut self, standing: &Standing<'_>, frame: &Frame, step_s: f64) -> Vec<Event> {
         let mut circles: BTreeSet<Vec<usize>> = BTreeSet::new();
         let known = self.deadlocks.len();
+        self.note_contacts(frame);
         for index in 0..self.times.len() {
             let mut is_unexplained = false;
             let is_slow = frame.vehicles[index].state.speed_mps < SLOW_MPS * self.times[index];
             let shown = if is_slow { standing.plain_reason(index) } else { None };
-            let is_told = standing.told_by(index).is_some();
-            let shows_none = shown.is_none() && !is_told;
+            let is_excused = standing.told_by(index).is_some() || !self.touched[index].is_empty();
+            let shows_none = shown.is_none() && !is_excused;
             self.last[index] = shown.map(|reason| (reason, frame.time_s)).or_else(|| self.last[index].take());
             if standing.stands(index) {
                 let circle = standing.reason(index).map_or_else(|| standing.circle(index), |_| Vec::new());
+                let is_crash = circle.iter().any(|vehicle| !self.touched[*vehicle].is_empty());
+                let circle = if is_crash { Vec::new() } else { circle };
                 is_unexplained = shows_none;
                 let (waits_for, reason) = self.wait(standing, frame, index, &circle);
                 let before_s = self.unexplained_s[index];
@@ -168,13 +186,34 @@ impl Waits {
         }
         let setting_off_s = SETTING_OFF_S * self.times[index];
         match &self.last[index] {
+            Some((reason, _)) if self.is_of_crash(index, reason) => (Vec::new(), AFTER_COLLISION.to_owned()),
             Some((reason, at_s)) if circle.is_empty() && frame.time_s - at_s <= setting_off_s => words(reason),
             Some(_) if !circle.is_empty() => {
                 let others = circle.iter().filter(|other| **other != index);
                 (others.map(|other| name(frame, *other)).collect(), IN_A_CIRCLE.to_owned())
             }
-            _ => (Vec::new(), own_reason(&frame.vehicles[index])),
+            _ if !self.touched[index].is_empty() => (Vec::new(), AFTER_COLLISION.to_owned()),
+            _ => (Vec::new(), own_reason(standing, frame, index)),
         }
+    }
+
+    /// Records which vehicles touch.
+    fn note_contacts(&mut self, frame: &Frame) {
+        for [first, second] in frame.collisions.iter().map(|collision| &collision.between) {
+            for (own, other) in [(first, second), (second, first)] {
+                let index = frame.vehicles.iter().position(|vehicle| vehicle.name == *own);
+                if let Some(index) = index {
+                    self.touched[index].insert(other.clone());
+                }
+            }
+        }
+    }
+
+    /// Whether a reason names only vehicles that this one has touched.
+    fn is_of_crash(&self, index: usize, reason: &StandingReason) -> bool {
+        let touched = &self.touched[index];
+        let names = reason.waits_for();
+        !names.is_empty() && names.iter().all(|name| touched.contains(*name))
     }
 
     fn add(&mut self, index: usize, waits_for: Vec<String>, reason: String, step_s: f64) {
@@ -222,33 +261,48 @@ mod tests {
     use interplay_planners::rules::RoadRules;
     use interplay_scenarios::{Scenario, load};
 
+    use crate::state::frame::{Collision, VehicleFrame};
+
     use super::*;
 
-    /// Both vehicles stand at their starts for some ticks of 0.1 s, each at a line at its front where it gives way to others.
-    fn stood(ticks: usize, waits_for: [&[&str]; 2]) -> (Waits, Vec<Event>) {
+    /// Two vehicles that stand at their starts.
+    fn two() -> Scenario {
         let mut scenario: Scenario = load("t-junction/bayesian-nice", &[]).expect("authored");
         scenario.vehicles.truncate(2);
+        scenario
+    }
+
+    /// A tick of 0.1 s in which both stand, each at a line at its front where it gives way to others.
+    fn frame(scenario: &Scenario, waits_for: [&[&str]; 2], tick: usize) -> Frame {
+        let vehicles = scenario.vehicles.iter().zip(waits_for).map(|(vehicle, names)| {
+            let mut state = vehicle.start;
+            state.speed_mps = 0.0;
+            let line_m = vehicle.route.along(state.position()) + vehicle.body.front_m + 0.5;
+            let waits_for = names.iter().map(|name| (*name).to_owned()).collect();
+            let holds = !names.is_empty();
+            let rules =
+                RoadRules { are_kept: true, stop_line_m: holds.then_some(line_m), waits_for, ..RoadRules::default() };
+            VehicleFrame { name: vehicle.name.clone(), state, rules, ..VehicleFrame::default() }
+        });
+        Frame { time_s: 0.1 * tick as f64, vehicles: vehicles.collect(), ..Frame::default() }
+    }
+
+    /// The measures and events of some ticks, in the first of which these vehicles begin to touch.
+    fn stood_after(between: Option<[&str; 2]>, ticks: usize, waits_for: [&[&str]; 2]) -> (Waits, Vec<Event>) {
+        let scenario = two();
         let mut waits = Waits::new(&scenario);
         let mut events = Vec::new();
         for tick in 0..ticks {
-            let vehicles = scenario.vehicles.iter().zip(waits_for).map(|(vehicle, names)| {
-                let mut state = vehicle.start;
-                state.speed_mps = 0.0;
-                let line_m = vehicle.route.along(state.position()) + vehicle.body.front_m + 0.5;
-                let waits_for = names.iter().map(|name| (*name).to_owned()).collect();
-                let holds = !names.is_empty();
-                let rules = RoadRules {
-                    are_kept: true,
-                    stop_line_m: holds.then_some(line_m),
-                    waits_for,
-                    ..RoadRules::default()
-                };
-                VehicleFrame { name: vehicle.name.clone(), state, rules, ..VehicleFrame::default() }
-            });
-            let frame = Frame { time_s: 0.1 * tick as f64, vehicles: vehicles.collect(), ..Frame::default() };
+            let mut frame = frame(&scenario, waits_for, tick);
+            let hit = between.filter(|_| tick == 0).map(|between| between.map(str::to_owned));
+            frame.collisions.extend(hit.map(|between| Collision { between, ..Collision::default() }));
             events.extend(waits.observe(&Standing::of(&scenario.vehicles, &frame), &frame, 0.1));
         }
         (waits, events)
+    }
+
+    fn stood(ticks: usize, waits_for: [&[&str]; 2]) -> (Waits, Vec<Event>) {
+        stood_after(None, ticks, waits_for)
     }
 
     #[test]
@@ -272,6 +326,30 @@ mod tests {
         assert_eq!(events.len(), 1);
         assert!(stood(95, [&["main"], &[]]).1.is_empty(), "not yet");
         assert_eq!(waits.of(1)[0].sentence(), "stood 10.1 s (no reason found)");
+    }
+
+    /// Neither a vehicle that stands after a contact nor two that stand against each other are deadlocked.
+    #[test]
+    fn vehicles_that_have_crashed_are_not_deadlocked() {
+        let in_circle: [&[&str]; 2] = [&["main"], &["ego"]];
+        let unexplained: [&[&str]; 2] = [&[], &[]];
+        for waits_for in [unexplained, in_circle] {
+            let (waits, events) = stood_after(Some(["ego", "main"]), 120, waits_for);
+            assert!(events.is_empty() && waits.deadlocks().is_empty(), "{:?}", waits.deadlocks());
+            assert_eq!(waits.of(0)[0].sentence(), "stood 12.0 s (after a collision)");
+        }
+    }
+
+    #[test]
+    fn oncoming_and_crossing_vehicles_are_not_called_ahead() {
+        let sentence = |reason: &StandingReason| {
+            let (waits_for, reason) = words(reason);
+            Wait { waited_s: 2.0, waits_for, reason }.sentence()
+        };
+        let name = || "ego".to_owned();
+        assert_eq!(sentence(&StandingReason::Behind(name())), "waited 2.0 s for ego (ahead of it)");
+        assert_eq!(sentence(&StandingReason::Passage(name())), "waited 2.0 s for ego (to leave the passage)");
+        assert_eq!(sentence(&StandingReason::InWay(name())), "waited 2.0 s for ego (in its way)");
     }
 
     /// A vehicle that waits for a moving one is not deadlocked.

@@ -8,17 +8,22 @@ use serde_json::{Map, Value, json};
 use super::judge_building::{judge_building, judge_zone};
 use super::outcome::{Expectation, Report, VehicleReport};
 use crate::measure::{Measured, MetricValue, Passage};
+use crate::state::frame::Collision;
+
+/// Contacts that a failed expectation names.
+const MOST_CONTACTS: usize = 3;
+/// The kind of driver that follows a record.
+const RECORDED: &str = "recorded";
 
 /// Judges every expectation that the scenario states.
 pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
     let mut judged = Vec::new();
+    if let Some(none) = expect.no_collision {
+        judged.push(no_collision(none, report));
+    }
     let mut add = |what: String, want: Value, got: Value, passed: bool| {
         judged.push(Expectation::new(what, want, got, passed));
     };
-    if let Some(none) = expect.no_collision {
-        let count = report.collisions.len();
-        add("no_collision".into(), json!(none), json!(count == 0), none == (count == 0));
-    }
     if let Some(pairs) = &expect.collisions {
         let (want, got) = (unordered(pairs.iter()), unordered(report.collisions.iter().map(|one| &one.between)));
         let passed = want == got;
@@ -50,6 +55,31 @@ pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
         judged.extend(expect.zones.iter().flat_map(|expect| judge_zone(expect, first_days, building)));
     }
     judged
+}
+
+/// Judges whether vehicles touched; a failure says which and when, contacts between vehicles that follow records last.
+fn no_collision(wanted: bool, report: &Report) -> Expectation {
+    let is_recorded = |name: &String| report.vehicle(name).is_some_and(|vehicle| vehicle.driver == RECORDED);
+    let of_records = |contact: &&Collision| contact.between.iter().all(is_recorded);
+    let (recorded, mut contacts): (Vec<&Collision>, Vec<&Collision>) = report.collisions.iter().partition(of_records);
+    contacts.extend(recorded);
+    let mut words: Vec<String> = contacts
+        .iter()
+        .take(MOST_CONTACTS)
+        .map(|contact| {
+            let [one, other] = &contact.between;
+            let what =
+                contact.fault.as_ref().map_or_else(|| format!("{one} and {other} touched"), |fault| fault.why.clone());
+            let records = if of_records(contact) { ", both of which follow their records" } else { "" };
+            format!("{what} at {:.2} s{records}", contact.time_s)
+        })
+        .collect();
+    if contacts.len() > MOST_CONTACTS {
+        words.push(format!("and {} more", contacts.len() - MOST_CONTACTS));
+    }
+    let got = contacts.is_empty();
+    let at = (wanted && !got).then(|| words.join("; "));
+    Expectation { at, ..Expectation::new("no_collision", json!(wanted), json!(got), wanted == got) }
 }
 
 /// The distinct pairs, whichever vehicle is named first.

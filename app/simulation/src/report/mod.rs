@@ -29,10 +29,9 @@ impl Report {
         wall_s: f64,
         ended_early_s: Option<f64>,
     ) -> Self {
-        let vehicles = scenario.vehicles.iter().zip(&measures.vehicles);
+        let vehicles = measures.vehicles.iter().enumerate();
         let vehicles = vehicles
-            .enumerate()
-            .map(|(index, (vehicle, measured))| VehicleReport::new(vehicle, measured, measures.waits.of(index)))
+            .map(|(index, measured)| VehicleReport::new(scenario, index, measured, measures.waits.of(index)))
             .collect();
         let phase_digests = measures.digest.phases();
         let building = building.map(|measures| BuildingReport::new(scenario, measures));

@@ -1,7 +1,7 @@
 //! The outcome of a run, as plain values.
 
 use interplay_planners::State;
-use interplay_scenarios::{Vehicle, readable};
+use interplay_scenarios::{Scenario, readable};
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
@@ -42,10 +42,8 @@ pub struct Report {
     /// Which vehicle went first in each zone where the routes of two vehicles cross or merge and that one of them entered.
     pub right_of_way: Vec<Passage>,
     /// The rules of the road that vehicles broke, with times and places.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub broken_rules: Vec<BrokenRule>,
     /// The deadlocks, with the times at which they were detected.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub deadlocks: Vec<Deadlock>,
     /// Names from the front of the road to its rear, at the end; at an intersection, in the order of crossing.
     pub order: Vec<String>,
@@ -78,7 +76,8 @@ pub struct CounterfactualReport {
     pub run: Box<Report>,
 }
 
-const VEHICLE_KEYS: [&str; 5] = ["phase_digests", "collisions", "right_of_way", "order", "vehicles"];
+const VEHICLE_KEYS: [&str; 7] =
+    ["phase_digests", "collisions", "right_of_way", "broken_rules", "deadlocks", "order", "vehicles"];
 
 impl Serialize for Report {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -100,6 +99,12 @@ pub struct VehicleReport {
     pub name: String,
     /// The kind of its driver.
     pub driver: String,
+    /// The flow of which it came; `None` if the scenario states it by itself.
+    #[serde(skip)]
+    pub flow: Option<String>,
+    /// Whether it is the ego.
+    #[serde(skip)]
+    pub is_ego: bool,
     /// When it reached its goal \[s\].
     pub completed_s: Option<f64>,
     /// Whether it started away from its goal.
@@ -187,9 +192,12 @@ impl VehicleReport {
     }
 
     /// Builds the outcome from the measures.
-    pub(super) fn new(vehicle: &Vehicle, measured: &VehicleMeasures, standing: Vec<Wait>) -> Self {
+    pub(super) fn new(scenario: &Scenario, index: usize, measured: &VehicleMeasures, standing: Vec<Wait>) -> Self {
+        let vehicle = &scenario.vehicles[index];
         VehicleReport {
             name: vehicle.name.clone(),
+            flow: scenario.flows.of(&vehicle.name).map(str::to_owned),
+            is_ego: index == scenario.ego_index(),
             driver: vehicle.driver.kind().to_owned(),
             is_obstacle: vehicle.obstacle.is_some(),
             keeps_rules: vehicle.keeps_rules(),
@@ -266,7 +274,7 @@ pub struct Expectation {
     pub got: Value,
     /// Whether it held.
     pub passed: bool,
-    /// Day or zone of the worst value, if it concerns several.
+    /// Day or zone of the worst value, if it concerns several; the contacts, if there were to be none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<String>,
 }

@@ -8,15 +8,17 @@ use super::measurements::{Boundary, Hold, MeasuredWall, MeasuredZone, Neighbour,
 use super::table::{Column, Row, Table};
 use super::units::PowerUnit;
 use crate::series::clock::{ClockTime, NamedZone, OFFSET};
-use crate::series::home_assistant;
+use crate::series::home_assistant::Export;
 
 /// The lowest and highest temperature that a building or its weather can have \[°C\].
 const PLAUSIBLE_C: (f64, f64) = (-60.0, 90.0);
 
 /// Reads `text`; see [`Telemetry::read`].
 pub(super) fn read(file: &str, text: &str, mapping: &Mapping) -> Result<Telemetry, TelemetryError> {
-    let converted = home_assistant::table(text);
-    let table = Table::split(file, converted.as_deref().unwrap_or(text), mapping)?;
+    let export = Export::read(text);
+    let text = export.as_ref().map_or(text, |export| export.table.as_str());
+    let mut table = Table::split(file, text, mapping)?;
+    table.export = export.as_ref();
     let rows = complete_rows(&table, mapping)?;
     let reader = Reader { table: &table, mapping, rows: &rows.kept, segments: &rows.segments };
     let boundaries = mapping

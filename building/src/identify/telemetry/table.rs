@@ -6,6 +6,7 @@ use super::error::{Problem, TelemetryError, listed};
 use super::mapping::{Mapping, TimeAxis};
 use super::units::{DecimalSign, TableForm};
 use crate::series::clock::{self, ClockTime, NamedZone, seconds_since_1970};
+use crate::series::home_assistant::{Export, is_without_value};
 
 /// A table of text; every row has as many fields as the header.
 pub(super) struct Table<'a> {
@@ -15,6 +16,8 @@ pub(super) struct Table<'a> {
     header: Vec<String>,
     computed: Vec<Computed>,
     pub rows: Vec<Row>,
+    /// The export of which the table is made, if it is one of Home Assistant.
+    pub export: Option<&'a Export>,
 }
 
 /// A column that is the mean of others, times a factor.
@@ -62,7 +65,7 @@ impl<'a> Table<'a> {
         if rows.is_empty() {
             return Err(empty());
         }
-        let mut table = Self { file, form, lines, header, computed: Vec::new(), rows };
+        let mut table = Self { file, form, lines, header, computed: Vec::new(), rows, export: None };
         for computed in &mapping.columns {
             let role = format!("part of {}", computed.name);
             let members = computed.mean_of.iter().map(|name| table.column_of_table(name, &role));
@@ -132,7 +135,8 @@ impl<'a> Table<'a> {
 
     fn number_of_table(&self, row: &Row, column: Column) -> Result<Option<f64>, TelemetryError> {
         let text = self.text(row, column);
-        if text.is_empty() || self.form.missing.iter().any(|missing| missing == text) {
+        let is_unavailable = self.export.is_some() && is_without_value(text);
+        if text.is_empty() || is_unavailable || self.form.missing.iter().any(|missing| missing == text) {
             return Ok(None);
         }
         let parsed = match self.form.decimal {
@@ -197,8 +201,10 @@ impl<'a> Table<'a> {
     /// The error for `problem` in the field at `row` and `column`.
     pub fn at(&self, row: &Row, column: Column, problem: Problem) -> TelemetryError {
         let column = self.first_of(column);
-        let line = self.lines.text(row.line);
-        let place = Some((row.line, field_start(line, self.form.separator, column.0)));
+        let place = match self.export {
+            Some(export) => export.place(row.line, column.0),
+            None => Some((row.line, field_start(self.lines.text(row.line), self.form.separator, column.0))),
+        };
         TelemetryError::new(self.file, place, problem)
     }
 

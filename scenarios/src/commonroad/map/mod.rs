@@ -212,7 +212,10 @@ fn driven(follower: &Follower, lanes: &Lanes, options: &ImportOptions, notes: &m
             VehicleConfig { start: in_world(&place.state), route: place.lanes, goal, driver: Some(driver), ..config }
         }
         None => {
-            notes.one(["vehicle beside the lanes", "vehicles beside the lanes"], "not replaced: it follows its record");
+            notes.one(
+                ["vehicle beside the lanes", "vehicles beside the lanes"],
+                "not replaced, since no lane leads along their records",
+            );
             recorded(config)
         }
     }

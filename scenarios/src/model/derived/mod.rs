@@ -1,7 +1,8 @@
-//! Quantities derived from a scenario: conflict zones, lane widths, schedules, and the effect of the seed.
+//! Quantities derived from a scenario: conflict zones, lane widths, schedules, tasks, and the effect of the seed.
 
 pub(crate) mod narrowest_lane;
 pub(crate) mod script_contact;
 pub(crate) mod seed_dependence;
 pub(crate) mod swept_width;
+pub(crate) mod task;
 pub(crate) mod timetable;

@@ -11,13 +11,14 @@ use crate::model::traffic::real_time::Deadline;
 impl Scenario {
     /// Whether runs with different seeds may differ. If not, they are bit-identical.
     ///
-    /// The seed decides the change of the starts and the errors of sensors; and, in a building, the synthetic weather, errors of
-    /// forecasts, and people.
+    /// The seed decides the change of the starts, the vehicles of flows and the errors of sensors; and, in a building, the synthetic weather,
+    /// errors of forecasts, and people.
     pub fn depends_on_seed(&self) -> bool {
         let jitter = self.start_jitter;
         let starts_vary = jitter.position_m > 0.0 || jitter.speed_mps > 0.0;
         let senses_errors = self.vehicles.len() > 1 && self.vehicles.iter().any(Vehicle::senses_errors);
-        (starts_vary && !self.vehicles.is_empty()) || senses_errors || self.has_random_surroundings()
+        let vehicles_vary = (starts_vary && !self.vehicles.is_empty()) || self.flows.depend_on_seed();
+        vehicles_vary || senses_errors || self.has_random_surroundings()
     }
 
     fn has_random_surroundings(&self) -> bool {

@@ -1,6 +1,7 @@
 //! The traffic of a scenario: vehicles, obstacles, lights and detectors, and their level of detail.
 
 pub(crate) mod conduct;
+pub(crate) mod flows;
 pub(crate) mod goal;
 pub(crate) mod lane_reference;
 pub(crate) mod light;

@@ -42,6 +42,7 @@ pub(crate) fn collect(scenario: &Scenario, tree: &TomlNode, schema: SchemaNode) 
     faults.extend(crowded_flows(tree));
     faults.extend(idle_detail(scenario, tree));
     faults.extend(light_zones(scenario, tree));
+    faults.extend(idle_expectations(scenario, tree));
     let mut last = None;
     for (index, vehicle) in scenario.vehicles.iter().enumerate() {
         // The first vehicle of a flow stands for all of them, since they are written in one place.
@@ -88,6 +89,18 @@ fn light_zones(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
         is_light.then(|| Fault::at(&stated.place, "cools quickly", message).help(help))
     };
     building.zones.iter().enumerate().filter_map(remark).collect()
+}
+
+/// Expectations that a vehicle completes a task although it has none, which fail in every run.
+fn idle_expectations(scenario: &Scenario, tree: &TomlNode) -> Vec<Fault> {
+    let remark = |(index, vehicle): (usize, &str)| {
+        let name = quoted(vehicle);
+        let message = format!("{name} has nothing to complete: it starts where it is to go, or follows a record");
+        let help = format!("give {name} a goal in another lane, or leave the expectation out");
+        let place = tree.place_of(&format!("expect.completes.{index}.vehicle"));
+        Fault::at(place, "has nothing to complete", message).help(help)
+    };
+    scenario.expected_without_task().map(remark).collect()
 }
 
 /// A level of detail that concerns no vehicle.

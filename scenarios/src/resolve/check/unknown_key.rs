@@ -33,7 +33,15 @@ const CONVERSIONS: [(&str, &str, &str); 16] = [
 /// The key of this table that was probably meant: another unit, or a slip.
 pub(super) fn meant<'s>(key: &str, schema: SchemaNode<'s>) -> Option<&'s str> {
     let known = || schema.properties().map(|(known, _)| known.as_str());
-    known().find(|known| differ_by_unit(key, known)).or_else(|| nearest(key, known()))
+    let mut longer = known().filter(|known| has_as_words(known, key));
+    let longer = longer.next().filter(|_| longer.next().is_none());
+    known().find(|known| differ_by_unit(key, known)).or(longer).or_else(|| nearest(key, known()))
+}
+
+/// Whether a longer key begins or ends with these words: `start_jitter` with `jitter`.
+fn has_as_words(known: &str, words: &str) -> bool {
+    let rest = known.strip_suffix(words).map(|before| before.ends_with('_'));
+    rest.or_else(|| known.strip_prefix(words).map(|after| after.starts_with('_'))).unwrap_or(false)
 }
 
 /// The help for an unknown key of a table; `whole` is the schema of the file.
@@ -120,5 +128,7 @@ mod tests {
         assert_eq!(help("sped_mps", start), "did you mean `speed_mps`?");
         assert_eq!(meant("durations_s", file), Some("duration_s"));
         assert_eq!(meant("elephant", file), None);
+        assert_eq!(meant("jitter", file), Some("start_jitter"));
+        assert_eq!(help("jitter", file), "did you mean `start_jitter`?");
     }
 }

@@ -6,11 +6,13 @@
 //! this way have the same motion, scaled.
 //!
 //! - `for_all`: `[defaults]`, merged under every vehicle.
+//! - `driver_kind`: the kind of drivers of which only the style is stated.
 //! - `similarity`: the factor by which a unit is scaled.
 //! - `fill`: the scaled defaults of a table, for keys that it does not state.
 //! - `people`: the behaviour of people on real roads.
 //! - `expand`: all that depends on the size of a scenario.
 
+mod driver_kind;
 mod expand;
 mod fill;
 mod for_all;
@@ -18,5 +20,6 @@ mod people;
 mod similarity;
 pub(crate) mod stated_road;
 
+pub(crate) use driver_kind::with_driver_kinds;
 pub(crate) use expand::expand;
 pub(crate) use for_all::with_defaults;

@@ -2,8 +2,8 @@
 //!
 //! - `arrival`: when, where and how fast each vehicle comes, drawn from the seed.
 //!
-//! A vehicle of a flow is thus a vehicle like any other: it has defaults, checks, a budget, a recording. No other folder
-//! knows of flows.
+//! A vehicle of a flow is thus a vehicle like any other: it has defaults, checks, a budget, a recording. Reports count the
+//! vehicles of a flow together.
 
 mod arrival;
 
@@ -196,6 +196,21 @@ mod tests {
              road = {{ kind = 'lanes', lane_count = 2, lane_width_m = 3.5 }}\n[[flow]]\nname = 'a'\nfrom = [0]\nspeed_mps = 20.0\n{flow}"
         );
         from_text("a.toml", &text, &[]).map(|_| ()).expect_err("refused").faults()[0].message().to_owned()
+    }
+
+    /// Runs with different seeds have different traffic, so they are different samples.
+    #[test]
+    fn traffic_of_a_flow_depends_on_the_seed() {
+        let text = |keys: &str| {
+            format!(
+                "title = 'a'\nshows = 'a'\nscale = 'full'\nduration_s = 10.0\n\
+                 road = {{ kind = 'lanes', lane_count = 2, lane_width_m = 3.5 }}\n[[flow]]\nname = 'a'\nfrom = [0]\nspeed_mps = 20.0\n\
+                 vehicles_per_h = 1800.0\n{keys}"
+            )
+        };
+        let depends = |keys: &str| from_text("a.toml", &text(keys), &[]).expect("sound").depends_on_seed();
+        assert!(depends(""));
+        assert!(!depends("headways = 'even'"), "equal headways, one lane and one speed");
     }
 
     #[test]

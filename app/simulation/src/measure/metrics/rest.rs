@@ -84,7 +84,10 @@ impl Measurement for Rest {
         self.observe_gap(&standing, tick);
         let (body, along_m) = (&tick.end.vehicles[self.vehicle].body, tick.end.along_m[self.vehicle]);
         let is_in = |[from_m, to_m]: &[f64; 2]| along_m + body.front_m > *from_m && along_m - body.rear_m < *to_m;
-        let gives_way = |reason: &StandingReason| !matches!(reason, StandingReason::Behind(_));
+        let gives_way = |reason: &StandingReason| {
+            use StandingReason::{Behind, InWay, Passage};
+            !matches!(reason, Behind(_) | InWay(_) | Passage(_))
+        };
         if self.crossings_m.iter().any(is_in) && !standing.plain_reason(self.vehicle).as_ref().is_some_and(gives_way) {
             self.blocked_s += tick.step_s;
         }

@@ -43,7 +43,8 @@ impl Metric for StandingMetric {
     fn begin(&self, scenario: &Scenario, _: &ObservedMoment<'_>, vehicle: usize) -> Box<dyn Measurement> {
         let scale = scenario.vehicles[vehicle].body.real_ratio();
         let (value, stuck_s) = (self.value, STUCK_S * scale.sqrt());
-        Box::new(StandingSoFar { value, vehicle, stuck_s, now_s: 0.0, longest_s: 0.0, deadlocks: 0 })
+        let has_crashed = false;
+        Box::new(StandingSoFar { value, vehicle, stuck_s, has_crashed, now_s: 0.0, longest_s: 0.0, deadlocks: 0 })
     }
 }
 
@@ -53,6 +54,8 @@ struct StandingSoFar {
     value: fn(&StandingSoFar) -> MetricValue,
     vehicle: usize,
     stuck_s: f64,
+    /// Whether it has had a contact, which then is the reason.
+    has_crashed: bool,
     now_s: f64,
     longest_s: f64,
     deadlocks: u64,
@@ -61,8 +64,10 @@ struct StandingSoFar {
 impl Measurement for StandingSoFar {
     fn observe(&mut self, tick: &ObservedTick<'_>) {
         let standing = Standing::of(tick.end.vehicles, tick.frame);
+        let name = &tick.end.vehicles[self.vehicle].name;
+        self.has_crashed |= tick.frame.collisions.iter().any(|collision| collision.between.contains(name));
         let is_told = standing.told_by(self.vehicle).is_some();
-        if is_told || !standing.stands(self.vehicle) || standing.reason(self.vehicle).is_some() {
+        if is_told || self.has_crashed || !standing.stands(self.vehicle) || standing.reason(self.vehicle).is_some() {
             self.now_s = 0.0;
             return;
         }

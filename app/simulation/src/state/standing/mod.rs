@@ -1,5 +1,8 @@
 //! Classifies why a vehicle that wants to move is stationary, from positions and traffic rules.
 
+mod conflicts;
+mod passing;
+
 use interplay_planners::road::network::LightColour;
 use interplay_planners::{Driver, Route, State};
 use interplay_scenarios::Vehicle;
@@ -16,14 +19,10 @@ const LIGHT_M: f64 = 5.0;
 const LEAST_WANTED_MPS: f64 = 0.5;
 /// Maximum distance from a vehicle's front to the line or vehicle at which it waits, for a real car \[m\].
 const NEAR_M: f64 = 15.0;
-/// Distance up to which oncoming traffic prevents a real car from passing an obstacle \[m\].
-const ONCOMING_M: f64 = 150.0;
 /// Maximum distance to a stationary vehicle ahead behind which a real car stands \[m\].
 const REST_M: f64 = 30.0;
 /// A slower real car may be part of a queue \[m/s\].
 const QUEUE_MPS: f64 = 2.0;
-/// Lateral clearance needed for passing, beside both bodies, for a real car \[m\].
-const ASIDE_M: f64 = 0.7;
 
 /// Why a vehicle is stationary.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,6 +35,10 @@ pub enum StandingReason {
     GivesWay(Vec<String>),
     /// It waits behind another vehicle.
     Behind(String),
+    /// It waits for an oncoming vehicle in a passage too narrow for both.
+    Passage(String),
+    /// It waits for a vehicle that crosses its way or comes towards it.
+    InWay(String),
     /// It waits for another vehicle before it passes an obstacle.
     Passing {
         /// The vehicle for which it waits.
@@ -49,11 +52,14 @@ pub enum StandingReason {
 
 impl StandingReason {
     /// The vehicles that the reason names, for which a vehicle waits.
-    fn waits_for(&self) -> Vec<&str> {
+    pub(crate) fn waits_for(&self) -> Vec<&str> {
         match self {
             StandingReason::Sign | StandingReason::Light | StandingReason::NoRoom(_) => Vec::new(),
             StandingReason::GivesWay(names) => names.iter().map(String::as_str).collect(),
-            StandingReason::Behind(name) | StandingReason::Passing { waits_for: name, .. } => vec![name],
+            StandingReason::Behind(name)
+            | StandingReason::Passage(name)
+            | StandingReason::InWay(name)
+            | StandingReason::Passing { waits_for: name, .. } => vec![name],
         }
     }
 }
@@ -65,6 +71,8 @@ impl std::fmt::Display for StandingReason {
             StandingReason::Light => write!(formatter, "stops at the traffic light"),
             StandingReason::GivesWay(names) => write!(formatter, "gives way to {}", names.join(", ")),
             StandingReason::Behind(name) => write!(formatter, "waits behind {name}"),
+            StandingReason::Passage(name) => write!(formatter, "waits for {name} to leave the passage"),
+            StandingReason::InWay(name) => write!(formatter, "waits for {name} in its way"),
             StandingReason::Passing { waits_for, obstacle } => {
                 write!(formatter, "waits for {waits_for} before it passes {obstacle}")
             }
@@ -158,18 +166,30 @@ impl<'a> Standing<'a> {
 
     /// Why a vehicle is stationary, independently of the vehicles for which it waits.
     pub fn plain_reason(&self, index: usize) -> Option<StandingReason> {
+        let conflict = || self.others(index).find_map(|other| self.before_conflict(index, other));
+        self.visible_reason(index).or_else(conflict)
+    }
+
+    /// Why a vehicle is stationary, by what is before it and by the rules.
+    fn visible_reason(&self, index: usize) -> Option<StandingReason> {
         let (vehicle, scale) = (&self.vehicles[index], self.scale(index));
         let front_m = self.along_m(index) + vehicle.body.front_m;
         let rules = &self.frame.vehicles[index].rules;
+        let line_m = rules.stop_line_m.filter(|line_m| line_m - front_m < NEAR_M * scale);
+        let stands_at_light = || rules.waits_for.is_empty() && line_m.is_some_and(|line_m| self.is_lit(index, line_m));
         if let Some(obstacle) = self.ahead(index, NEAR_M * scale) {
             if self.wants_to_drive(obstacle) {
-                return Some(StandingReason::Behind(self.vehicles[obstacle].name.clone()));
+                return Some(self.because_of(index, obstacle));
             }
-            if let Some(reason) = self.before_passing(index, obstacle) {
-                return Some(reason);
+            let reason = match self.walks_across(index, obstacle) {
+                true if stands_at_light() => None,
+                true => Some(self.before_walker(index, obstacle)),
+                false => self.before_passing(index, obstacle),
+            };
+            if reason.is_some() {
+                return reason;
             }
         }
-        let line_m = rules.stop_line_m.filter(|line_m| line_m - front_m < NEAR_M * scale);
         if let Some(name) = rules.keeps_clear_behind.as_ref().filter(|_| line_m.is_some()) {
             return Some(StandingReason::Behind(name.clone()));
         }
@@ -178,6 +198,12 @@ impl<'a> Standing<'a> {
             [] => StandingReason::Sign,
             names => StandingReason::GivesWay(names.to_vec()),
         })
+    }
+
+    /// The index of the vehicle of this name, if it is stationary.
+    pub(crate) fn stationary(&self, name: &str) -> Option<usize> {
+        let index = self.vehicles.iter().position(|vehicle| vehicle.name == name)?;
+        (self.state(index).speed_mps < STANDING_MPS * self.scale(index).sqrt()).then_some(index)
     }
 
     /// Whether a traffic light that is not green, or was not when the driver saw it, is just beyond a line \[m\].
@@ -189,29 +215,6 @@ impl<'a> Standing<'a> {
             let times_s = [self.frame.time_s, self.frame.time_s - late_s];
             leg.light.as_ref().is_some_and(|light| times_s.iter().any(|time_s| is_closed(light.colour_at(*time_s))))
         })
-    }
-
-    /// Why a vehicle does not pass an obstacle.
-    fn before_passing(&self, index: usize, obstacle: usize) -> Option<StandingReason> {
-        let (own, other) = (&self.vehicles[index], &self.vehicles[obstacle]);
-        let at = own.route.locate(self.state(obstacle).position(), None);
-        let [right_m, left_m] = own.route.edges_before_end_m(at.along_m);
-        let needed_m = 0.5 * other.body.width_m + own.body.width_m + ASIDE_M * self.scale(index);
-        let name = || other.name.clone();
-        if left_m - at.across_m < needed_m && at.across_m - right_m < needed_m {
-            return Some(StandingReason::NoRoom(name()));
-        }
-        let reach_m = ONCOMING_M * self.scale(index);
-        let others = self.others(index).filter(|other| *other != obstacle);
-        let comes = |other: &usize| {
-            let place = own.route.locate(self.state(*other).position(), None);
-            let beside = (place.across_m - at.across_m).abs() > 0.5 * self.vehicles[*other].body.width_m;
-            let speed_mps = self.state(*other).speed_mps;
-            let is_near = (place.along_m - at.along_m).abs() < reach_m;
-            is_near && beside && speed_mps > STANDING_MPS && (right_m..=left_m).contains(&place.across_m)
-        };
-        let waits_for = others.into_iter().find(comes)?;
-        Some(StandingReason::Passing { waits_for: self.vehicles[waits_for].name.clone(), obstacle: name() })
     }
 
     /// The nearest vehicle ahead in the same lane that is stationary, less than 30 m of a real car ahead, and its distance between
@@ -239,7 +242,7 @@ impl<'a> Standing<'a> {
     pub(crate) fn queues(&self, index: usize) -> bool {
         let is_slow = self.state(index).speed_mps <= QUEUE_MPS * self.scale(index).sqrt();
         let ends = |reason: &StandingReason| !matches!(reason, StandingReason::NoRoom(_));
-        self.wants_to_drive(index) && is_slow && self.plain_reason(index).as_ref().is_some_and(ends)
+        self.wants_to_drive(index) && is_slow && self.visible_reason(index).as_ref().is_some_and(ends)
     }
 
     /// The nearest vehicle ahead in the same lane, within a distance between bumpers.
