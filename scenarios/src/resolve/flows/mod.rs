@@ -165,7 +165,12 @@ fn vehicle(schema: Option<SchemaNode>, flow: &FlowConfig, node: &TomlNode, arriv
         made.set_place(&node.place);
         if let TomlValue::Table(table) = made.value { table } else { Table::new() }
     };
-    let mut goal = Map::from_iter([("speed_mps".to_owned(), json!(arrival.speed_mps))]);
+    // A wanted speed of its own may differ from the speed with which it comes, as on a ramp.
+    let sorts_own = arrival.sort.map(|sort| format!("mix.{sort}.vehicle.goal.speed_mps"));
+    let is_stated = |path: &str| node.at(path).is_some();
+    let states_speed = is_stated("vehicle.goal.speed_mps") || sorts_own.as_deref().is_some_and(is_stated);
+    let mut goal = Map::new();
+    goal.extend((!states_speed).then(|| ("speed_mps".to_owned(), json!(arrival.speed_mps))));
     goal.extend(arrival.to.map(|lane| ("lane".to_owned(), json!(lane))));
     let own = json!({
         "name": format!("{}-{}", flow.name, arrival.number),
