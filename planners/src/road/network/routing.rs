@@ -29,8 +29,12 @@ const MIN_CHANGE_RATIO: f64 = 4.0;
 /// Most of a lane that one joint or change replaces.
 const MAX_REPLACED_SHARE: f64 = 0.4;
 
-/// A late change out of a lane that ends leaves this much of the lane unused, by the length of the change: 10 m on 3.5 m wide lanes.
-const UNUSED_RATIO: f64 = 0.25;
+/// Length of a late change out of a lane that ends, by the width of the lane, and most of the lane that it takes: a change of 84 m is
+/// comfortable at 27 m/s, and one of 42 m only at 14 m/s.
+const LATE_CHANGE_RATIO: f64 = 24.0;
+const LATE_SHARE: f64 = 0.45;
+/// It leaves this much of the lane unused, by its length.
+const UNUSED_RATIO: f64 = 0.1;
 
 /// Where a route leaves a lane that ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,8 +87,12 @@ impl RoadNetwork {
             right_of_way: part.lane.right_of_way,
             light: part.lane.light.clone(),
             is_zebra: part.lane.is_zebra,
+            is_left_late: false,
         };
-        let legs: Vec<RouteLeg> = parts.iter().enumerate().map(leg).collect();
+        let mut legs: Vec<RouteLeg> = parts.iter().enumerate().map(leg).collect();
+        for (leg, part) in legs.iter_mut().zip(&parts).rev().skip(1) {
+            leg.is_left_late = ending == EndingLane::End && part.lane.successors.is_empty();
+        }
         let strip = edges::strip(self, &centre, &legs, &sections_m);
         let mut route = Route::curved(centre, strip.right, strip.left, strip.half_width);
         route.legs = legs;
@@ -153,10 +161,13 @@ impl Part<'_> {
             let (from, to) = (self.lane.name.clone(), next.lane.name.clone());
             return Err(RouteError::NoRoomToChange { from, to, needed_m: least_room_m(width_m), room_m });
         }
-        let half_m = (0.5 * CHANGE_RATIO * width_m).min(MAX_REPLACED_SHARE * room_m);
         let is_late = ending == EndingLane::End && changes == 1 && self.lane.successors.is_empty();
-        let late_m = begin_m + room_m - (1.0 + 2.0 * UNUSED_RATIO) * half_m;
-        let middle_m = if is_late { middle_m.max(late_m) } else { middle_m };
+        let (middle_m, half_m) = if is_late {
+            let half_m = 0.5 * (LATE_CHANGE_RATIO * width_m).min(LATE_SHARE * room_m);
+            (begin_m + room_m - (1.0 + 2.0 * UNUSED_RATIO) * half_m, half_m)
+        } else {
+            (middle_m, (0.5 * CHANGE_RATIO * width_m).min(MAX_REPLACED_SHARE * room_m))
+        };
         let end = self.lane.centre.at(middle_m + half_m).position;
         self.to_m = middle_m - half_m;
         next.from_m = next.lane.centre.project(end, None).along_m;
