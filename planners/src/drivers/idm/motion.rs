@@ -93,7 +93,8 @@ impl Motion<'_> {
         let Agent { route, body, limits, .. } = self.own;
         let curvature_1pm = route.centre.at(along_m).curvature_1pm;
         let radius_m = 1.0 / curvature_1pm.abs() - curvature_1pm.signum() * lane_m;
-        if limits.comfort.is_none() || route.is_in_network() || !radius_m.is_finite() || radius_m <= body.wheelbase_m() {
+        if limits.comfort.is_none() || route.is_in_network() || !radius_m.is_finite() || radius_m <= body.wheelbase_m()
+        {
             return 0.0;
         }
         let rear_m = (radius_m * radius_m - body.rear_axle_m * body.rear_axle_m).sqrt();

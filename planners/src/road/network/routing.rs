@@ -146,12 +146,7 @@ impl Part<'_> {
     ///
     /// # Errors
     /// [`RouteError::NoRoomToChange`] where the stretch is too short.
-    fn make_room_for_change(
-        &mut self,
-        next: &mut Part,
-        changes: usize,
-        ending: EndingLane,
-    ) -> Result<(), RouteError> {
+    fn make_room_for_change(&mut self, next: &mut Part, changes: usize, ending: EndingLane) -> Result<(), RouteError> {
         let [begin_m, end_m] = side_by_side(self.lane, next.lane);
         let begin_m = begin_m.max(self.from_m);
         let room_m = (end_m.min(self.to_m) - begin_m) / changes.max(1) as f64;
@@ -161,12 +156,13 @@ impl Part<'_> {
             let (from, to) = (self.lane.name.clone(), next.lane.name.clone());
             return Err(RouteError::NoRoomToChange { from, to, needed_m: least_room_m(width_m), room_m });
         }
+        let half_m = (0.5 * CHANGE_RATIO * width_m).min(MAX_REPLACED_SHARE * room_m);
         let is_late = ending == EndingLane::End && changes == 1 && self.lane.successors.is_empty();
         let (middle_m, half_m) = if is_late {
-            let half_m = 0.5 * (LATE_CHANGE_RATIO * width_m).min(LATE_SHARE * room_m);
+            let half_m = half_m.max(0.5 * (LATE_CHANGE_RATIO * width_m).min(LATE_SHARE * room_m));
             (begin_m + room_m - (1.0 + 2.0 * UNUSED_RATIO) * half_m, half_m)
         } else {
-            (middle_m, (0.5 * CHANGE_RATIO * width_m).min(MAX_REPLACED_SHARE * room_m))
+            (middle_m, half_m)
         };
         let end = self.lane.centre.at(middle_m + half_m).position;
         self.to_m = middle_m - half_m;

@@ -16,9 +16,11 @@ const PLACES_PER_WHEELBASE: f64 = 2.0;
 /// The most positions of a route that are checked.
 const MAX_PLACES: f64 = 10_000.0;
 
-/// A body does not come round if a corner is this far beyond an edge, in its widths: for a lorry 4 cm, with 1 cm to spare for what counts as
-/// off the road.
-const OFF_ROAD_WIDTHS: f64 = 0.015;
+/// A body does not come round if a corner is this far beyond an edge, in its widths: for a lorry 1 cm. Drivers follow their routes to some
+/// centimetres, and 5 cm count as off the road.
+const OFF_ROAD_WIDTHS: f64 = 0.005;
+/// The radius that works is searched in steps of the present one by this number.
+const STEPS_OF_PRESENT: u32 = 8;
 /// The largest radius that is tried, as a multiple of the present one.
 const MOST_TIMES: f64 = 4.0;
 
@@ -88,11 +90,12 @@ fn smallest_radius(road: &Road, vehicle: &Vehicle, turner: &Turner) -> Option<(&
         let route = network.route_of_body(network.route(&lanes).ok()?, turner);
         Some(route.leaves_road_m(turner, 0.0).1 <= OFF_ROAD_WIDTHS * turner.body.width_m)
     };
-    let mut does_not = (10.0 * now_m) as u32;
-    let mut works = (MOST_TIMES * 10.0 * now_m) as u32;
-    if !fits(works)? {
-        return None;
-    }
+    // A larger radius is not always better: the lanes of a junction leave other holes. So the search goes up in steps first.
+    let now = (10.0 * now_m) as u32;
+    let step = (now / STEPS_OF_PRESENT).max(1);
+    let mut tried = (now..=(MOST_TIMES * 10.0 * now_m) as u32).step_by(step as usize).skip(1);
+    let mut works = tried.find(|tenths| fits(*tenths) == Some(true))?;
+    let mut does_not = works - step;
     while works > does_not + 1 {
         let middle = does_not.midpoint(works);
         if fits(middle) == Some(true) {
@@ -131,7 +134,11 @@ fn swept_width_m(body: &Body, inner_m: f64) -> f64 {
     let ahead_m = (body.front_m + body.rear_axle_m).max(body.rear_m - body.rear_axle_m);
     // The same as `hypot(R + w, l) − R`, without its cancellation where the road is nearly straight.
     let squares = 2.0 * inner_m * body.width_m + body.width_m * body.width_m + ahead_m * ahead_m;
-    if inner_m.is_infinite() { body.width_m } else { squares / (libm::hypot(inner_m + body.width_m, ahead_m) + inner_m) }
+    if inner_m.is_infinite() {
+        body.width_m
+    } else {
+        squares / (libm::hypot(inner_m + body.width_m, ahead_m) + inner_m)
+    }
 }
 
 /// Rounds to tenths of a metre.

@@ -204,6 +204,27 @@ mod tests {
     }
 
     #[test]
+    fn vehicles_of_a_flow_may_want_another_speed_than_they_come_with() {
+        for (goals, wanted_mps) in [
+            ("", 20.0),
+            ("vehicle = { goal = { speed_mps = 25.0 } }", 25.0),
+            ("mix = [{ share = 1.0, vehicle = { goal = { speed_mps = 23.0 } } }]", 23.0),
+        ] {
+            let text = format!(
+                "title = 'a'\nshows = 'a'\nscale = 'full'\nduration_s = 60.0\nroad = {{ kind = 'lanes', lane_width_m = 3.5 }}\n\
+                 [[flow]]\nname = 'a'\nfrom = [0]\nspeed_mps = 20.0\nvehicles_per_h = 600.0\n{goals}"
+            );
+            let scenario = from_text("a.toml", &text, &[]).unwrap_or_else(|error| panic!("{error}"));
+            let speeds = scenario.vehicles.iter().map(|one| [one.start.speed_mps, one.goal.target.speed_mps]);
+            assert!(
+                speeds.clone().all(|speeds| speeds == [20.0, wanted_mps]),
+                "{goals}: {:?}",
+                speeds.collect::<Vec<_>>()
+            );
+        }
+    }
+
+    #[test]
     fn invalid_flows_are_refused_once() {
         for (flow, part) in [
             ("", "nothing says how many vehicles"),
