@@ -153,7 +153,10 @@ fn an_unknown_planner_is_refused() {
 #[test]
 fn bad_arguments_are_refused() {
     let folder = scratch("bad-arguments");
-    refused(&interplay(&folder, &["runn"]), &["unrecognized subcommand 'runn'", "'run'"]);
+    for (misspelt, meant) in [("runn", "'run'"), ("chekc", "'check'"), ("swep", "'sweep'"), ("compre", "'compare'")] {
+        let said = format!("unrecognized subcommand '{misspelt}'");
+        refused(&interplay(&folder, &[misspelt]), &[&said, "similar subcommand", meant]);
+    }
     for seed in ["two", "-1", "1.5", "18446744073709551616"] {
         let pieces = [&format!("'{seed}'"), "--seed", "a seed is a whole number from 0 to 18446744073709551615"];
         refused(&interplay(&folder, &["run", "--seed", seed]), &pieces);

@@ -23,26 +23,29 @@ PEOPLE = [("nice", 0.3), ("considerate", 0.2), ("normal", 0.2), ("assertive", 0.
 STANDS_MPS = 1.0
 
 
-def mix_of(drivers: str) -> str:
-    """The sorts of vehicles of a flow, a tenth of them lorries."""
+def mix_of(drivers: str, mps: float) -> str:
+    """The sorts of vehicles of a flow that come with a speed, a tenth of them lorries."""
     human = lambda style: f'{{ kind = "human", style = "{style}" }}'
     idm = '{ kind = "idm" }'
     sorts = [(0.9, idm)] if drivers == "idm" else [(share, human(style)) for style, share in PEOPLE]
     if drivers == "mixed":
         sorts[0] = (sorts[0][0], idm)
     lorry = human("normal") if drivers == "people" else idm
-    rows = [f'{{ share = 0.1, speed_mps = 21.0, vehicle = {{ class = "truck", driver = {lorry} }} }}']
+    truck = f'class = "truck", goal = {{ speed_mps = 21.0 }}, driver = {lorry}'
+    rows = [f"{{ share = 0.1, speed_mps = {min(mps, 21.0)}, vehicle = {{ {truck} }} }}"]
     return ", ".join(rows + [f"{{ share = {share}, vehicle = {{ driver = {driver} }} }}" for share, driver in sorts])
 
 
 def scenario(drivers: str, main_per_h: int, ramp_per_h: int, seconds: float) -> str:
-    mix = mix_of(drivers)
-    flow = "[[flow]]\nname = \"{}\"\nvehicles_per_h = {}\nfrom = {}\nalong_m = 5.0\nspeed_mps = {}\nmix = [" + mix + "]\n"
+    def flow(name: str, per_h: int, lanes: str, mps: float) -> str:
+        head = f'[[flow]]\nname = "{name}"\nvehicles_per_h = {per_h}\nfrom = {lanes}\nalong_m = 5.0\nspeed_mps = {mps}\n'
+        return f"{head}vehicle = {{ goal = {{ speed_mps = 25.0 }} }}\nmix = [{mix_of(drivers, mps)}]\n"
+
     return (
         f'title = "A ramp"\nshows = "Two flows merge"\nduration_s = {seconds}\n'
-        'budget = { plans = 10_000_000, steps = 100_000_000 }\nroad = { kind = "on-ramp" }\ndefaults = { class = "car" }\n'
-        + flow.format("main", main_per_h, '["main-0", "main-1"]', 25.0)
-        + flow.format("ramp", ramp_per_h, '["ramp"]', 15.0)
+        'budget = { plans = 100_000_000, steps = 1_000_000_000 }\nroad = { kind = "on-ramp" }\ndefaults = { class = "car" }\n'
+        + flow("main", main_per_h, '["main-0", "main-1"]', 25.0)
+        + flow("ramp", ramp_per_h, '["ramp"]', 15.0)
         + 'to = [{ lane = "main-0", share = 1.0 }]\n'
         + '[[detector]]\nname = "behind"\nlanes = ["main-0", "main-1"]\nalong_m = 480.0\n'
     )

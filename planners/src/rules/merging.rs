@@ -1,28 +1,36 @@
 //! Merging from the lane beside, as from an acceleration lane: into which gap, and so when to be where the lanes meet.
 //!
 //! A vehicle that has to let those go first whose lane it joins does not stop for them but falls in behind one of them. With `d` to the
-//! place where the ways meet it comes there after `t₀` if nothing holds it. Of the gaps there, from the first to the last, it takes the
-//! first in which it has, after `t ≥ t₀`,
+//! place where the ways meet it comes there after `t₀` if nothing holds it. Of the gaps between those in the lane that it joins, from the
+//! first to the last, it takes the first in which it has, after `t ≥ t₀`,
 //!
 //! ```text
 //! ahead   x_l + v_l t − l ≥ s₀ + T v          (to the rear of the leader of the gap)
 //! behind  −(x_f + v_f t) − l ≥ s₀ + T v_f + (v_f − v)₊²/(2 b)
 //! ```
 //!
-//! where `x` is how far a front is beyond the meeting, and `b` what the one behind may have to brake. Until it would not be too early it
-//! keeps its speed, or drives with `d/t` where that is less. So it slows down early and a little, and joins with
-//! `v = v₀ + √(2 a (d − v₀ t))` if it keeps `v₀`.
+//! where `x` is how far a front is beyond the meeting, and `b` what the one behind may have to brake. Where no gap is long enough, it takes
+//! the one that lacks least behind, of those that it reaches after at most `2 t₀`: it does not become slow for vehicles far behind. Until
+//! it would not be too early it keeps its speed, or drives with `d/t` where that is less. So it slows down early and a little, and joins
+//! with `v = v₀ + √(2 a (d − v₀ t))` if it keeps `v₀`.
 
 use super::obliged::Obliged;
 use crate::Agent;
 use crate::road::network::{ConflictKind, Precedence, RouteConflict};
-use crate::rules::giving_way::{ENTERING_SHARE, LAG_BRAKING_MPS2, STANDSTILL_M, TIME_GAP_S, front_m, length_m, time_s};
+use crate::rules::giving_way::{LAG_BRAKING_MPS2, STANDSTILL_M, TIME_GAP_S, front_m, length_m, time_s};
 use crate::scene::road_rules::Merging;
 
 /// Ways that meet at a smaller angle than this run side by side before \[rad\].
 const BESIDE_RAD: f64 = 0.2;
+/// A vehicle beside its lane comes back if its direction is by more than this towards that \[rad\].
+const BACK_RAD: f64 = 0.01;
 /// A gap behind a vehicle slower than this is not waited for, of real vehicles \[m/s\].
 const LEAST_MPS: f64 = 1.0;
+/// Where there is an earlier gap, one that takes more than this many times as long as the way without others is not waited for.
+const MOST_TIMES: f64 = 2.0;
+/// A vehicle becomes faster with this share of its strongest acceleration: cars with 1.2 m/s², about as drivers and the intelligent driver
+/// model do at 20 m/s.
+const GAINING_SHARE: f64 = 0.4;
 /// Gaps are chosen this long before the ways meet, of real vehicles \[s\].
 const EARLY_S: f64 = 20.0;
 
@@ -53,20 +61,27 @@ pub(super) fn merging(user: &Obliged<'_>, users: &[Obliged<'_>]) -> Option<Mergi
     passing.sort_by(|a, b| b.beyond_m.total_cmp(&a.beyond_m).then_with(|| a.agent.name.cmp(&b.agent.name)));
     let meeting_m = passing.iter().map(|other| other.meeting_m).reduce(f64::min)?;
     let way_m = meeting_m - front_m;
-    let free_s = time_s(way_m, ego.state.speed_mps, user.wanted_mps, ENTERING_SHARE * ego.limits.acceleration_max_mps2);
+    let free_s = time_s(way_m, ego.state.speed_mps, user.wanted_mps, GAINING_SHARE * ego.limits.acceleration_max_mps2);
     if way_m <= 0.0 || free_s > EARLY_S * ego.body.real_ratio().sqrt() {
         return None;
     }
-    let mut last = None;
+    let mut best: Option<(f64, Option<&Passing<'_>>, f64)> = None;
     for gap in 0..=passing.len() {
         let ahead = gap.checked_sub(1).map(|ahead| &passing[ahead]);
         let Some(in_s) = earliest_s(ego, ahead, free_s, way_m) else { continue };
-        last = ahead.map(|ahead| (ahead, in_s));
-        if has_room_behind(ego, passing.get(gap), in_s, way_m) {
+        if best.is_some() && in_s > MOST_TIMES * free_s {
+            break;
+        }
+        let spare_m = spare_behind_m(ego, passing.get(gap), in_s, way_m);
+        if best.is_none_or(|(most_m, ..)| spare_m > most_m) {
+            best = Some((spare_m, ahead, in_s));
+        }
+        if spare_m >= 0.0 {
             break;
         }
     }
-    let (ahead, in_s) = last.filter(|(_, in_s)| *in_s > free_s)?;
+    let (_, ahead, in_s) = best.filter(|(.., in_s)| *in_s > free_s)?;
+    let ahead = ahead?;
     Some(Merging { behind: ahead.agent.name.clone(), meeting_m, in_s })
 }
 
@@ -74,7 +89,14 @@ fn passing<'a>(ego: &Agent, other: &'a Agent, own_front_m: f64) -> Option<Passin
     let conflict = ego.route.conflicts_with(&other.route).find(|conflict| is_from_beside(ego, other, conflict))?;
     let is_ahead = own_front_m < conflict.own_m[0] && !ego.shares_lane_with(other);
     let beyond_m = front_m(other) - conflict.their_m[0];
-    is_ahead.then_some(Passing { agent: other, beyond_m, meeting_m: conflict.own_m[0] })
+    (is_ahead && is_in_its_lane(other)).then_some(Passing { agent: other, beyond_m, meeting_m: conflict.own_m[0] })
+}
+
+/// Whether any part of a vehicle is in the lane of its route, or it comes back there: it may have changed to the lane beside.
+fn is_in_its_lane(other: &Agent) -> bool {
+    let (at, half_m) = (other.place(), other.route.half_width.value(other.along_m()));
+    let comes_back = libm::sin(other.state.heading_rad - at.heading_rad) * at.across_m < -BACK_RAD * at.across_m.abs();
+    comes_back || at.across_m.abs() < half_m + 0.5 * other.body.width_m
 }
 
 /// The first time at which there is room behind a vehicle \[s\]; none behind one that hardly moves and is in the way.
@@ -90,17 +112,18 @@ fn earliest_s(ego: &Agent, ahead: Option<&Passing<'_>>, free_s: f64, way_m: f64)
     (speed_mps > LEAST_MPS * ratio.sqrt()).then(|| needed_m / speed_mps)
 }
 
-/// Whether the vehicle behind a gap need not brake much for one that joins in some time \[s\].
-fn has_room_behind(ego: &Agent, behind: Option<&Passing<'_>>, in_s: f64, way_m: f64) -> bool {
-    let Some(Passing { agent, beyond_m, .. }) = behind else { return true };
+/// By how much the gap to the vehicle behind is longer than it has to be for one that joins in some time, so that it need not brake much
+/// \[m\].
+fn spare_behind_m(ego: &Agent, behind: Option<&Passing<'_>>, in_s: f64, way_m: f64) -> f64 {
+    let Some(Passing { agent, beyond_m, .. }) = behind else { return f64::INFINITY };
     let ratio = ego.body.real_ratio();
     let speed_mps = agent.state.speed_mps;
-    let (now_mps, gained_mps2) = (ego.state.speed_mps, ENTERING_SHARE * ego.limits.acceleration_max_mps2);
+    let (now_mps, gained_mps2) = (ego.state.speed_mps, GAINING_SHARE * ego.limits.acceleration_max_mps2);
     let kept_mps = now_mps.min(way_m / in_s);
     let joining_mps = kept_mps + (2.0 * gained_mps2 * (way_m - kept_mps * in_s)).max(0.0).sqrt();
     let slower_mps = (speed_mps - joining_mps).max(0.0);
     let needed_m = STANDSTILL_M * ratio
         + TIME_GAP_S * ratio.sqrt() * speed_mps
         + slower_mps * slower_mps / (2.0 * LAG_BRAKING_MPS2);
-    -(beyond_m + speed_mps * in_s) - length_m(ego) >= needed_m
+    -(beyond_m + speed_mps * in_s) - length_m(ego) - needed_m
 }

@@ -30,7 +30,7 @@ use crate::scene::relation::{Relation, is_on_strip};
 use crate::scene::road_rules::Obstacle;
 use crate::{Agent, Plan, PlanError, PlanEvent, PlanTime, Scene};
 use diagnostics::{GAP, INCENTIVE, LANE};
-use mobil::{Changing, LanesOfScene};
+use mobil::{Changing, LaneChoice, LanesOfScene};
 use motion::Motion;
 
 /// Free space beside what stands, for 1/10 scale cars \[m\].
@@ -153,9 +153,15 @@ impl Drive for Idm {
         };
         let minded = with_others(&whole, is_minded);
         let lanes = RoadLanes::of_road(&minded, self.settings.mobil.lane_width_m);
-        let now = self.lane(&minded, &lanes);
-        let seen_lanes = LanesOfScene { scene: &minded, others: &scene.others, lanes: &lanes };
-        let choice = mobil::choose(&Changing::of(&minded), &self.settings, &lanes, now, &seen_lanes);
+        let (now, choice) = if is_on_ending_lane(&minded.ego) {
+            // Its route changes the lane, in the gap that the rules choose.
+            let lane = lanes.at(0.0);
+            (lane, LaneChoice { lane, incentive_mps2: 0.0 })
+        } else {
+            let now = self.lane(&minded, &lanes);
+            let seen_lanes = LanesOfScene { scene: &minded, others: &scene.others, lanes: &lanes };
+            (now, mobil::choose(&Changing::of(&minded), &self.settings, &lanes, now, &seen_lanes))
+        };
         self.lane_centre_m = Some(lanes.centre_m(choice.lane));
         let line_m = seen.ego.rules.stop_line_m;
         let from_to = [now, choice.lane];
@@ -213,6 +219,11 @@ fn is_on_path(scene: &Scene, obstacle: &Agent) -> bool {
     let reach_m = 0.5 * (ego.body.width_m + obstacle.body.width_m) + BESIDE_OBSTACLE_M * ego.body.scale;
     let paths_m = [ego.state.position(), scene.goal.target.position()].map(|place| ego.route.across(place));
     paths_m.iter().any(|path_m| (at_m - path_m).abs() < reach_m)
+}
+
+/// Whether a vehicle is on a lane that ends, and which its route leaves late.
+fn is_on_ending_lane(ego: &Agent) -> bool {
+    ego.route.leg(ego.along_m() - ego.body.rear_m).is_some_and(|leg| leg.is_left_late)
 }
 
 /// The scene with those others only that are on the same road; to a driver who knows comfort also those on it whose way joins the own

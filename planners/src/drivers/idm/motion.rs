@@ -75,7 +75,8 @@ impl Motion<'_> {
             let swing_m = SWINGS * swing_m(own, own.state.speed_mps);
             obstacle.lateral_m(front_m, lane_m, swing_m) - lane_m
         };
-        let lateral_m = lane_m + AIM * passed.map_or(0.0, beside_m);
+        let inwards_m = along_m.map_or(0.0, |along_m| self.inwards_m(along_m, lane_m));
+        let lateral_m = lane_m + inwards_m + AIM * passed.map_or(0.0, beside_m);
         let steering_rad = match along_m {
             None => steer(own, state, lateral_m),
             Some(_) => steer_over_step(own, state, lateral_m, step_s),
@@ -83,6 +84,23 @@ impl Motion<'_> {
         let wanted = Input { acceleration_mps2: self.acceleration_mps2(state, along_m, ahead, owed), steering_rad };
         let Input { acceleration_mps2, steering_rad } = own.comfortably(before, wanted, state.speed_mps, step_s);
         Input { acceleration_mps2: admissible(own, state, acceleration_mps2, step_s), steering_rad }
+    }
+
+    /// How far beside the middle of a lane the mass centre is in a curve, positive to the left, where the strip that the body covers is in that
+    /// middle \[m\]: with the mass centre on a circle of radius `r` the rear axle is on one of `√(r² − b²)`. The routes of networks contain it
+    /// already.
+    fn inwards_m(&self, along_m: f64, lane_m: f64) -> f64 {
+        let Agent { route, body, limits, .. } = self.own;
+        let curvature_1pm = route.centre.at(along_m).curvature_1pm;
+        let radius_m = 1.0 / curvature_1pm.abs() - curvature_1pm.signum() * lane_m;
+        if limits.comfort.is_none() || route.is_in_network() || !radius_m.is_finite() || radius_m <= body.wheelbase_m()
+        {
+            return 0.0;
+        }
+        let rear_m = (radius_m * radius_m - body.rear_axle_m * body.rear_axle_m).sqrt();
+        let half_m = 0.5 * body.width_m;
+        let outer_m = libm::hypot(rear_m + half_m, body.front_m + body.rear_axle_m);
+        curvature_1pm.signum() * (0.5 * (rear_m - half_m + outer_m) - radius_m)
     }
 
     /// What the model wants behind the vehicles ahead, within what is permitted.

@@ -25,4 +25,5 @@ pub use lane::{Lane, LaneNeighbour, LaneUser, NeighbourRelation, RightOfWay};
 pub use light::{LightColour, LightCycle, LightPhase};
 pub use road_network::{LanePlace, RoadNetwork};
 pub use route::{ConflictKind, Precedence, Route, RouteConflict, RouteLeg, TightestTurn};
+pub use routing::EndingLane;
 pub use swept::Turner;

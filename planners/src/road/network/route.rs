@@ -63,6 +63,8 @@ pub struct RouteLeg {
     pub light: Option<Arc<LightCycle>>,
     /// Whether the lane is a zebra crossing.
     pub is_zebra: bool,
+    /// Whether the lane ends, and the route leaves it near its end for the lane beside.
+    pub is_left_late: bool,
 }
 
 /// The place of a route at which its centre line has the largest curvature.

@@ -29,6 +29,22 @@ const MIN_CHANGE_RATIO: f64 = 4.0;
 /// Most of a lane that one joint or change replaces.
 const MAX_REPLACED_SHARE: f64 = 0.4;
 
+/// Length of a late change out of a lane that ends, by the width of the lane, and most of the lane that it takes: a change of 84 m is
+/// comfortable at 27 m/s, and one of 42 m only at 14 m/s.
+const LATE_CHANGE_RATIO: f64 = 24.0;
+const LATE_SHARE: f64 = 0.45;
+/// It leaves this much of the lane unused, by its length.
+const UNUSED_RATIO: f64 = 0.1;
+
+/// Where a route leaves a lane that ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EndingLane {
+    /// In the middle of what is left of it, as other lanes.
+    Middle,
+    /// Near its end: an acceleration lane is for accelerating.
+    End,
+}
+
 impl RoadNetwork {
     /// The route along lanes. Each lane is a successor of the one before, or a neighbour in the same direction into
     /// which a vehicle may change.
@@ -45,13 +61,21 @@ impl RoadNetwork {
     /// [`RouteError::NoLanes`], [`RouteError::UnknownLane`], [`RouteError::NotConnected`], [`RouteError::NoRoomToChange`], and
     /// [`RouteError::Centre`] where the lines of two lanes face each other so badly that no smooth curve joins them.
     pub fn route<Name: AsRef<str>>(&self, names: &[Name]) -> Result<Route, RouteError> {
+        self.route_leaving(names, EndingLane::Middle)
+    }
+
+    /// The same, which leaves lanes that end at a stated place.
+    ///
+    /// # Errors
+    /// As [`RoadNetwork::route`].
+    pub fn route_leaving<Name: AsRef<str>>(&self, names: &[Name], ending: EndingLane) -> Result<Route, RouteError> {
         let unknown = |name: &str| RouteError::UnknownLane { lane: name.to_owned() };
         let lanes = names
             .iter()
             .map(|name| self.lane(name.as_ref()).ok_or_else(|| unknown(name.as_ref())))
             .collect::<Result<Vec<&Lane>, RouteError>>()?;
         let names = || lanes.iter().map(|lane| lane.name.clone()).collect();
-        let (joined, parts) = join(&lanes)?.map_err(|source| RouteError::Centre { lanes: names(), source })?;
+        let (joined, parts) = join(&lanes, ending)?.map_err(|source| RouteError::Centre { lanes: names(), source })?;
         let JoinedLine { line: centre, sections_m } = joined;
         let middle_m = |index: usize| 0.5 * (sections_m[index][1] + sections_m[index + 1][0]);
         let leg = |(index, part): (usize, &Part)| RouteLeg {
@@ -63,8 +87,12 @@ impl RoadNetwork {
             right_of_way: part.lane.right_of_way,
             light: part.lane.light.clone(),
             is_zebra: part.lane.is_zebra,
+            is_left_late: false,
         };
-        let legs: Vec<RouteLeg> = parts.iter().enumerate().map(leg).collect();
+        let mut legs: Vec<RouteLeg> = parts.iter().enumerate().map(leg).collect();
+        for (leg, part) in legs.iter_mut().zip(&parts).rev().skip(1) {
+            leg.is_left_late = ending == EndingLane::End && part.lane.successors.is_empty();
+        }
         let strip = edges::strip(self, &centre, &legs, &sections_m);
         let mut route = Route::curved(centre, strip.right, strip.left, strip.half_width);
         route.legs = legs;
@@ -77,7 +105,7 @@ impl RoadNetwork {
 /// their lines cannot be joined.
 type Joined<'a> = Result<Result<(JoinedLine, Vec<Part<'a>>), CentreLineError>, RouteError>;
 
-fn join<'a>(lanes: &[&'a Lane]) -> Joined<'a> {
+fn join<'a>(lanes: &[&'a Lane], ending: EndingLane) -> Joined<'a> {
     let mut parts: Vec<Part> = Vec::new();
     for (place, &lane) in lanes.iter().enumerate() {
         let mut next = Part { lane, from_m: 0.0, to_m: lane.centre.length_m() };
@@ -85,7 +113,7 @@ fn join<'a>(lanes: &[&'a Lane]) -> Joined<'a> {
             if last.lane.successors.contains(&lane.name) {
                 last.make_room_for_joint(&mut next);
             } else if last.lane.may_change_to(&lane.name) {
-                last.make_room_for_change(&mut next, changes(&lanes[place - 1..]))?;
+                last.make_room_for_change(&mut next, changes(&lanes[place - 1..]), ending)?;
             } else {
                 return Err(RouteError::NotConnected { from: last.lane.name.clone(), to: lane.name.clone() });
             }
@@ -118,7 +146,7 @@ impl Part<'_> {
     ///
     /// # Errors
     /// [`RouteError::NoRoomToChange`] where the stretch is too short.
-    fn make_room_for_change(&mut self, next: &mut Part, changes: usize) -> Result<(), RouteError> {
+    fn make_room_for_change(&mut self, next: &mut Part, changes: usize, ending: EndingLane) -> Result<(), RouteError> {
         let [begin_m, end_m] = side_by_side(self.lane, next.lane);
         let begin_m = begin_m.max(self.from_m);
         let room_m = (end_m.min(self.to_m) - begin_m) / changes.max(1) as f64;
@@ -129,6 +157,13 @@ impl Part<'_> {
             return Err(RouteError::NoRoomToChange { from, to, needed_m: least_room_m(width_m), room_m });
         }
         let half_m = (0.5 * CHANGE_RATIO * width_m).min(MAX_REPLACED_SHARE * room_m);
+        let is_late = ending == EndingLane::End && changes == 1 && self.lane.successors.is_empty();
+        let (middle_m, half_m) = if is_late {
+            let half_m = half_m.max(0.5 * (LATE_CHANGE_RATIO * width_m).min(LATE_SHARE * room_m));
+            (begin_m + room_m - (1.0 + 2.0 * UNUSED_RATIO) * half_m, half_m)
+        } else {
+            (middle_m, half_m)
+        };
         let end = self.lane.centre.at(middle_m + half_m).position;
         self.to_m = middle_m - half_m;
         next.from_m = next.lane.centre.project(end, None).along_m;

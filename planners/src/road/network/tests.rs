@@ -288,6 +288,21 @@ fn adjacent_lanes_do_not_conflict_but_a_lane_change_merges() {
     assert!(from_m > 79.0 && (to_m - change.legs[0].to_m).abs() < 0.1, "{found:?}");
 }
 
+/// A late change is comfortable at 25 m/s, and uses the lane up to its last metres.
+#[test]
+fn routes_may_leave_lanes_that_end_near_their_end() {
+    let network = two_lanes();
+    let lanes = ["right", "left"];
+    let [middle, late] = [EndingLane::Middle, EndingLane::End].map(|place| network.route_leaving(&lanes, place));
+    let (middle, late) = (middle.expect("neighbours"), late.expect("neighbours"));
+    assert!((middle.legs[0].to_m - 100.0).abs() < 1.0 && !middle.legs[0].is_left_late, "{:?}", middle.legs);
+    assert!((140.0..160.0).contains(&late.legs[0].to_m) && late.legs[0].is_left_late, "{:?}", late.legs);
+    assert!(!late.legs[1].is_left_late);
+    let sharpest_1pm = |route: &Route| route.tightest_turn().map_or(0.0, |turn| turn.curvature_1pm.abs());
+    let mps = [&middle, &late].map(|route| (2.25 / sharpest_1pm(route)).sqrt());
+    assert!(mps[0] < 16.0 && mps[1] > 25.0, "{mps:?}");
+}
+
 #[test]
 fn a_roundabout_has_routes_around_it_and_conflicts_where_they_join() {
     let network = roundabout(15.0);

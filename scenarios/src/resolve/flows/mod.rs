@@ -165,7 +165,12 @@ fn vehicle(schema: Option<SchemaNode>, flow: &FlowConfig, node: &TomlNode, arriv
         made.set_place(&node.place);
         if let TomlValue::Table(table) = made.value { table } else { Table::new() }
     };
-    let mut goal = Map::from_iter([("speed_mps".to_owned(), json!(arrival.speed_mps))]);
+    // A wanted speed of its own may differ from the speed with which it comes, as on a ramp.
+    let sorts_own = arrival.sort.map(|sort| format!("mix.{sort}.vehicle.goal.speed_mps"));
+    let is_stated = |path: &str| node.at(path).is_some();
+    let states_speed = is_stated("vehicle.goal.speed_mps") || sorts_own.as_deref().is_some_and(is_stated);
+    let mut goal = Map::new();
+    goal.extend((!states_speed).then(|| ("speed_mps".to_owned(), json!(arrival.speed_mps))));
     goal.extend(arrival.to.map(|lane| ("lane".to_owned(), json!(lane))));
     let own = json!({
         "name": format!("{}-{}", flow.name, arrival.number),
@@ -211,6 +216,27 @@ mod tests {
         let depends = |keys: &str| from_text("a.toml", &text(keys), &[]).expect("sound").depends_on_seed();
         assert!(depends(""));
         assert!(!depends("headways = 'even'"), "equal headways, one lane and one speed");
+    }
+
+    #[test]
+    fn vehicles_of_a_flow_may_want_another_speed_than_they_come_with() {
+        for (goals, wanted_mps) in [
+            ("", 20.0),
+            ("vehicle = { goal = { speed_mps = 25.0 } }", 25.0),
+            ("mix = [{ share = 1.0, vehicle = { goal = { speed_mps = 23.0 } } }]", 23.0),
+        ] {
+            let text = format!(
+                "title = 'a'\nshows = 'a'\nscale = 'full'\nduration_s = 60.0\nroad = {{ kind = 'lanes', lane_width_m = 3.5 }}\n\
+                 [[flow]]\nname = 'a'\nfrom = [0]\nspeed_mps = 20.0\nvehicles_per_h = 600.0\n{goals}"
+            );
+            let scenario = from_text("a.toml", &text, &[]).unwrap_or_else(|error| panic!("{error}"));
+            let speeds = scenario.vehicles.iter().map(|one| [one.start.speed_mps, one.goal.target.speed_mps]);
+            assert!(
+                speeds.clone().all(|speeds| speeds == [20.0, wanted_mps]),
+                "{goals}: {:?}",
+                speeds.collect::<Vec<_>>()
+            );
+        }
     }
 
     #[test]

@@ -70,7 +70,8 @@ impl KnownNetwork {
             return Route::set_of(routes.into_iter().map(Arc::unwrap_or_clone).collect());
         }
         let words = |route: &Arc<Route>| {
-            let lanes = route.legs.iter().map(|leg| leg.lane.clone());
+            // Drivers leave lanes that end at different places.
+            let lanes = route.legs.iter().map(|leg| format!("{} to {:?}", leg.lane, leg.to_m));
             // Bodies that swing out have lines of their own along the same lanes.
             lanes.chain(route.is_swept().then(|| format!("{:?}", route.end_m()))).collect::<Vec<String>>()
         };

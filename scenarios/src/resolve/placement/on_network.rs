@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 use interplay_common::spelling::{listed, suggestion};
-use interplay_planners::road::network::{Lane, LaneUser, RoadNetwork, RouteError, Turner};
+use interplay_planners::road::network::{EndingLane, Lane, LaneUser, RoadNetwork, RouteError, Turner};
 use interplay_planners::{Body, Limits, Route, State};
 
 use super::known_roads::KnownNetwork;
@@ -161,10 +161,25 @@ impl NetworkVehicle<'_> {
         let words =
             [&[lane.name.clone(), goal, format!("{:?}", self.user)], self.written.stated.route.as_slice()].concat();
         let plain = self.known.route(words.clone(), || self.new_route(lane))?;
+        let (plain, words) = self.leaving_late(plain, words)?;
         let Some(turner) = self.turner() else { return Ok(plain) };
         // A long body swings out in tight turns.
         let words = [words, vec![format!("{turner:?}")]].concat();
         self.known.route(words, || Ok(self.known.network.route_of_body(Route::clone(&plain), &turner)))
+    }
+
+    /// The same route for a driver who knows comfort: it leaves a lane that ends near its end, after it has become fast there.
+    fn leaving_late(&self, plain: Arc<Route>, words: Vec<String>) -> Result<(Arc<Route>, Vec<String>), Fault> {
+        let limits: Option<Limits> = self.written.stated.limits.clone().and_then(|limits| limits.settings().ok());
+        let lanes: Vec<&str> = plain.legs.iter().map(|leg| leg.lane.as_str()).collect();
+        let ends = |name: &&str| self.open.lane(name).is_some_and(|lane| lane.successors.is_empty());
+        let leaves_one = lanes.split_last().is_some_and(|(_, before)| before.iter().any(ends));
+        if !leaves_one || limits.is_none_or(|limits| limits.comfort.is_none()) {
+            return Ok((plain, words));
+        }
+        let words = [words, vec!["late".to_owned()]].concat();
+        let late = || self.open.route_leaving(&lanes, EndingLane::End).map_err(|error| self.no_route(error));
+        Ok((self.known.route(words.clone(), late)?, words))
     }
 
     /// What of the vehicle decides how it comes round a turn; `None` where that is invalid, which later checks refuse.

@@ -1,5 +1,7 @@
 //! The paved area beside a route: all lanes that vehicles use, whatever their direction, and the narrow gaps between them.
 
+use std::f64::consts::TAU;
+
 use super::super::super::centre_line::CentreLine;
 use super::super::lane::{Lane, LaneUser};
 use super::super::road_network::RoadNetwork;
@@ -12,6 +14,10 @@ const STEP_RATIO: f64 = 0.05;
 const FARTHEST_RATIO: f64 = 2.0;
 /// Gaps between lanes that are narrower than this are paved, in lane widths.
 const GAP_RATIO: f64 = 0.35;
+/// So are the holes between the lanes of a junction: in this many directions, lanes are nearer than a lane width.
+const DIRECTIONS: usize = 8;
+/// Places that are looked at in each direction.
+const LOOKS: usize = 4;
 /// Of the way to the middle of a curve, places up to this share are looked at.
 const INSIDE_SHARE: f64 = 0.9;
 /// Length of the parts of a lane that are compared with a place at once, in lane widths.
@@ -78,14 +84,31 @@ fn edge_m(near: &[Pavement], route: &Route, along_m: f64, side: f64, width_m: f6
     let inside_m = if curvature_1pm > 0.0 { INSIDE_SHARE / curvature_1pm } else { f64::INFINITY };
     let most_m = (strip_m + FARTHEST_RATIO * width_m).min(inside_m);
     let (step_m, mut edge_m, mut here_m) = (STEP_RATIO * width_m, strip_m, strip_m);
-    while here_m + step_m <= most_m && here_m - edge_m < GAP_RATIO * width_m {
+    while here_m + step_m <= most_m {
         here_m += step_m;
         let point = route.centre.position(along_m, side * here_m);
-        if near.iter().any(|pavement| pavement.holds(point)) {
+        if is_paved(near, point) {
             edge_m = here_m;
+        } else if here_m - edge_m >= GAP_RATIO * width_m && !is_hole(near, point, width_m) {
+            break;
         }
     }
     side * edge_m
+}
+
+fn is_paved(near: &[Pavement], point: [f64; 2]) -> bool {
+    near.iter().any(|pavement| pavement.holds(point))
+}
+
+/// Whether a point beside all lanes has lanes on all sides.
+fn is_hole(near: &[Pavement], [x_m, y_m]: [f64; 2], width_m: f64) -> bool {
+    (0..DIRECTIONS).all(|direction| {
+        let (sin, cos) = libm::sincos(TAU * direction as f64 / DIRECTIONS as f64);
+        (1..=LOOKS).any(|look| {
+            let away_m = width_m * look as f64 / LOOKS as f64;
+            is_paved(near, [x_m + away_m * cos, y_m + away_m * sin])
+        })
+    })
 }
 
 /// A lane that vehicles use, with circles around its parts.
