@@ -70,17 +70,19 @@ fn ranked(entries: &[Entry]) -> Result<Vec<Ranked>, BenchError> {
     Ok(ranked)
 }
 
-/// A mean over encounters and families with its interval, `value` of each pair of runs.
+/// Strata are encounters and families where each has at least so many runs, otherwise encounters: resamples of few differ too little.
+const LEAST_RUNS: usize = 5;
+
+/// The mean score with its interval, or that of the paired differences from another planner on the same starts.
 fn interval(one: &[EntryRun], other: Option<&[EntryRun]>, stream: u64) -> Option<(f64, [f64; 2])> {
-    let strata: Vec<Vec<f64>> = match other {
-        None => cells(one).into_values().map(|runs| runs.iter().map(|run| run.score.score).collect()).collect(),
-        Some(other) => cells(one)
-            .into_values()
-            .zip(cells(other).into_values())
-            .map(|(one, other)| one.iter().zip(other).map(|(a, b)| a.score.score - b.score.score).collect())
-            .collect(),
-    };
-    let strata: Vec<&[f64]> = strata.iter().map(Vec::as_slice).collect();
+    let is_fine = cells(one).values().all(|runs| runs.len() >= LEAST_RUNS);
+    let mut strata: BTreeMap<(String, &str), Vec<f64>> = BTreeMap::new();
+    for (index, run) in one.iter().enumerate() {
+        let (encounter, family) = run.cell()?;
+        let value = run.score.score - other.map_or(0.0, |other| other[index].score.score);
+        strata.entry((encounter, if is_fine { family } else { "" })).or_default().push(value);
+    }
+    let strata: Vec<&[f64]> = strata.values().map(Vec::as_slice).collect();
     stratified_mean_interval(&strata, stream)
 }
 

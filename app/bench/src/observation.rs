@@ -12,8 +12,6 @@ use interplay_simulation::Simulation;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::trace::EGO;
-
 /// The version of the schema.
 pub const OBSERVATION_VERSION: &str = "EN1-observation-1";
 

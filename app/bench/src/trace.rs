@@ -50,9 +50,9 @@ pub(crate) struct EgoTrace {
     pub ticks: usize,
     /// Wall time of its plans \[s\].
     pub planning_s: f64,
-    off_road_s: f64,
-    along_m: Option<f64>,
-    last: Input,
+    pub off_road_s: f64,
+    pub along_m: Option<f64>,
+    pub last: Input,
 }
 
 impl EgoTrace {

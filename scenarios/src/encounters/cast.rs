@@ -91,10 +91,11 @@ impl Cast {
         }
     }
 
-    /// Adds a vehicle that follows the ego, which reaches a place at the same speed some seconds later.
+    /// In a third of the starts, adds a vehicle that follows the ego, which is then in its way while it waits.
     pub fn follower(&mut self, lane: &str, to: &str, ego_along_m: f64, speed_mps: f64) {
         let gap_m = 4.6 + self.draft.between(1.4, 2.4) * speed_mps;
-        if ego_along_m - gap_m > FIRST_M && !self.is_of_keepers() {
+        let is_there = self.draft.chance(1.0 / 3.0);
+        if is_there && ego_along_m - gap_m > FIRST_M && !self.is_of_keepers() {
             self.partner("follower", lane, Some(to), ego_along_m - gap_m, speed_mps);
         }
     }

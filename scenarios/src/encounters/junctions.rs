@@ -70,7 +70,7 @@ pub(super) fn crossing_equal(cast: &mut Cast) {
     for (prefix, lane, to, most) in [("right", "east-in", "east-out", 4), ("left", "west-in", "west-out", 3)] {
         let draft = &mut cast.draft;
         let (headway_s, count) = ([2.0, draft.between(2.6, 4.0)], draft.count(1, most));
-        let (flow_mps, from_s) = (draft.between(0.7, 0.9) * limit_mps, in_s + draft.between(-0.5, 1.5));
+        let (flow_mps, from_s) = (draft.between(0.7, 0.9) * limit_mps, in_s + draft.between(-2.0, 1.0));
         let to = Some(to);
         cast.stream(&Stream { prefix, lane, to, place_m, speed_mps: flow_mps, from_s, headway_s, count });
     }
@@ -89,8 +89,9 @@ pub(super) fn roundabout(cast: &mut Cast) {
     let quarter_s = 1.57 * radius_m / (2.0 * radius_m).sqrt();
     for (prefix, lane, to, quarters) in [("west", "west-in", "east-out", 1.0), ("north", "north-in", "east-out", 2.0)] {
         let draft = &mut cast.draft;
-        let (headway_s, count) = ([2.0, draft.between(2.5, 3.5)], draft.count(2, 4));
-        let from_s = (in_s - quarters * quarter_s + draft.between(-1.0, 2.0)).max(0.5);
+        let (headway_s, count) = ([2.0, draft.between(2.5, 3.5)], draft.count(3, 5));
+        // Before the ring they lose about 1.5 s by slowing down.
+        let from_s = (in_s - quarters * quarter_s - 1.5 + draft.between(-1.5, 0.5)).max(0.5);
         let to = Some(to);
         // They slow down from this speed before the ring, unless they do not react at all.
         let speed_mps = if cast.is_of_keepers() { 0.95 * (2.0 * radius_m).sqrt() } else { 8.5 };

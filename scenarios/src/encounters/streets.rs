@@ -15,7 +15,7 @@ pub(super) fn narrow_queue(cast: &mut Cast) {
     ));
     let (in_s, speed_mps) = (draft.between(5.0, 7.0), draft.between(0.7, 0.9) * limit_mps);
     let (headway_s, count) = ([1.6, draft.between(2.0, 3.0)], draft.count(3, 6));
-    let (flow_mps, from_s) = (draft.between(0.7, 0.9) * limit_mps, in_s + draft.between(-1.5, 1.0));
+    let (flow_mps, from_s) = (draft.between(0.7, 0.9) * limit_mps, in_s + draft.between(-4.0, -1.0));
     let place_m = approach_m - 5.0;
     cast.ego("east-in", "east-out", place_m, [speed_mps, 0.95 * limit_mps], in_s);
     cast.follower("east-in", "east-out", place_m - speed_mps * in_s, speed_mps);
@@ -81,7 +81,7 @@ pub(super) fn zebra_stream(cast: &mut Cast) {
 /// Adds pedestrians from one side, the first of whom reaches the kerb about when the ego is there.
 fn pedestrians(cast: &mut Cast, from: &str, in_s: f64) {
     let draft = &mut cast.draft;
-    let (mut at_s, count) = (in_s + draft.between(-2.5, 1.0), draft.count(2, 4));
+    let (mut at_s, count) = (in_s + draft.between(-4.5, -1.0), draft.count(2, 5));
     let walk_mps = draft.between(1.1, 1.5);
     for number in 0..count {
         let along_m = PAVEMENT_M - walk_mps * at_s;
