@@ -53,6 +53,7 @@
 //! ```
 
 mod commonroad;
+mod encounters;
 mod format;
 mod load;
 mod model;
@@ -70,6 +71,7 @@ pub use commonroad::{
     CommonRoadExport, DrivenVehicle, Exported, ImportOptions, Imported, Replacement, import_commonroad,
     import_commonroad_file, is_commonroad, recorded_traffic_in_commonroad,
 };
+pub use encounters::{ENCOUNTER_MANIFEST, ENCOUNTER_VERSION, Encounter, EncounterSplit, PartnerFamily};
 pub use format::flow::{FlowConfig, FlowGoal, FlowShare, Headways};
 pub use format::obstacle::ObstacleConfig;
 pub use format::read::embedded::{Embedded, embedded};

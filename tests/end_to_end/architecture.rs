@@ -22,6 +22,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("app/fmu", &["building", "scenarios", "app/simulation"]),
     ("app/tables", &["scenarios", "app/files", "app/simulation"]),
     ("app/sweep", &["common", "scenarios", "app/files", "app/simulation", "app/tables"]),
+    ("app/bench", &["planners", "scenarios", "app/files", "app/simulation", "app/sweep"]),
     (
         "app/presentation",
         &["common", "planners", "building", "scenarios", "app/files", "app/recordings", "app/simulation", "app/sweep"],
@@ -41,6 +42,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "app/fmu",
             "app/fmu_host",
             "app/sweep",
+            "app/bench",
             "app/presentation",
         ],
     ),

@@ -40,6 +40,8 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("interplay compare told", "of a sweep that is not run here"),
     ("interplay sweep contingency", "takes a quarter of an hour; the mechanism is in `sweeps`"),
     ("interplay run intersection/nice --set 'vehicle.ego.driver.passing_orders=", "a global search takes minutes"),
+    ("interplay bench run --command", "needs Python; the mechanism is in `benchmark`"),
+    ("interplay bench run --split", "takes an hour; the mechanism is in `benchmark`"),
     ("mdbook ", "another program"),
     ("tests/cluster/", "needs a scheduler"),
     ("interplay view ", "waits for a viewer: see `authoring`"),

@@ -29,7 +29,7 @@ use interplay_simulation::measure::RegisterMetrics;
 
 use crate::output::error::ExitStatus;
 use commands::{
-    check, compare, completions, export_fmu, fit, fmu_host, identify, import, list, man, new, play, predict, reproduce,
+    bench, check, compare, completions, export_fmu, fit, fmu_host, identify, import, list, man, new, play, predict, reproduce,
     run, schema, suite, sweep, view, why,
 };
 
@@ -58,6 +58,7 @@ enum Command {
     Suite(suite::Suite),
     Why(why::Why),
     Sweep(sweep::Sweep),
+    Bench(bench::Bench),
     Compare(compare::Compare),
     New(new::New),
     Import(import::Import),
@@ -125,6 +126,7 @@ fn run_command(registry: &Registry, arguments: impl IntoIterator<Item = OsString
         Some(Command::Suite(command)) => command.execute(registry),
         Some(Command::Why(command)) => command.execute(registry),
         Some(Command::Sweep(command)) => command.execute(registry),
+        Some(Command::Bench(command)) => command.execute(registry),
         Some(Command::Compare(command)) => command.execute(registry),
         Some(Command::New(command)) => command.execute(registry),
         Some(Command::Import(command)) => command.execute(registry),

@@ -61,4 +61,5 @@ pub use merge::{MergedSweep, merge};
 pub use people::{PeopleRows, PersonRun};
 pub use row::SweepRow;
 pub use shard::{Shard, ShardError};
+pub use statistics::stratified_mean_interval;
 pub use sweep::{KeepRecording, RUNS_FILE, SweepOptions, SweepOutcome, check, sweep, sweep_unless};

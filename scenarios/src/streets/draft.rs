@@ -20,9 +20,9 @@ fn reference(lane: &str) -> String {
 }
 
 /// A driver that keeps its speed, or stands.
-pub(super) const SCRIPTED: &str = "{ kind = \"scripted\" }";
+pub(crate) const SCRIPTED: &str = "{ kind = \"scripted\" }";
 
-pub(super) struct Draftee<'a> {
+pub(crate) struct Draftee<'a> {
     pub name: &'a str,
     pub class: &'a str,
     pub lane: &'a str,
@@ -36,7 +36,7 @@ pub(super) struct Draftee<'a> {
 }
 
 /// A scenario file under construction, and the random numbers for it.
-pub(super) struct Draft {
+pub(crate) struct Draft {
     random: Random,
     road: String,
     vehicles: String,
@@ -47,7 +47,7 @@ pub(super) struct Draft {
 }
 
 /// A stationary obstacle beside the middle of a lane.
-pub(super) struct Parked<'a> {
+pub(crate) struct Parked<'a> {
     pub name: &'a str,
     /// Word of its kind, such as `parked-car`.
     pub kind: &'a str,

@@ -87,6 +87,18 @@ pub(super) fn narrow_passage(draft: &mut Draft) {
 /// Four roads that meet without signs, all vehicles straight on: a vehicle from the right goes first.
 pub(super) fn equal(draft: &mut Draft) {
     let limit_mps = [8.3, 13.9][draft.count(0, 1)];
+    draft.road(&equal_roads(limit_mps, 100.0));
+    let mut free = vec!["west", "east", "south", "north"];
+    for name in ["ego"].iter().chain(&NAMES).take(draft.count(2, 4)) {
+        let side = free.remove(draft.count(0, free.len() - 1));
+        let (lane, goal) = (format!("{side}-in"), format!("{side}-out"));
+        let (along_m, speed_mps) = (draft.between(40.0, 75.0), draft.between(0.5, 0.9) * limit_mps);
+        drive_through(draft, name, [&lane, &goal], along_m, speed_mps, 0.9 * limit_mps);
+    }
+}
+
+/// The lanes of four roads that meet without signs, straight on from each side; they reach this far from the middle \[m\].
+pub(crate) fn equal_roads(limit_mps: f64, arm_m: f64) -> String {
     let lane = |name: &str, ends: [[f64; 2]; 2], more: &str| {
         let [[ax, ay], [bx, by]] = ends;
         let (mx, my) = (0.5 * (ax + bx), 0.5 * (ay + by));
@@ -102,18 +114,11 @@ pub(super) fn equal(draft: &mut Draft) {
         let place = |along_m: f64| [along_m * dx + 1.75 * dy, along_m * dy - 1.75 * dx];
         let next = |name: &str| format!("successors = [\"{side}-{name}\"]\n");
         let sign = "right_of_way = \"yield\"\n";
-        lanes += &lane(&format!("{side}-in"), [place(-100.0), place(-10.0)], &(next("over") + sign));
+        lanes += &lane(&format!("{side}-in"), [place(-arm_m), place(-10.0)], &(next("over") + sign));
         lanes += &lane(&format!("{side}-over"), [place(-10.0), place(10.0)], &next("out"));
-        lanes += &lane(&format!("{side}-out"), [place(10.0), place(100.0)], "");
+        lanes += &lane(&format!("{side}-out"), [place(10.0), place(arm_m)], "");
     }
-    draft.road(&lanes);
-    let mut free = vec!["west", "east", "south", "north"];
-    for name in ["ego"].iter().chain(&NAMES).take(draft.count(2, 4)) {
-        let side = free.remove(draft.count(0, free.len() - 1));
-        let (lane, goal) = (format!("{side}-in"), format!("{side}-out"));
-        let (along_m, speed_mps) = (draft.between(40.0, 75.0), draft.between(0.5, 0.9) * limit_mps);
-        drive_through(draft, name, [&lane, &goal], along_m, speed_mps, 0.9 * limit_mps);
-    }
+    lanes
 }
 
 /// Adds a vehicle that drives from one lane to another: the ego, or one of the others.

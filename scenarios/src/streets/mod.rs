@@ -7,13 +7,13 @@
 //! The ego of each street is a human of a random style; `--planner` gives it another driver. Most scenes contain a
 //! conflict: a road user stands in the ego's lane, crosses, merges, comes towards the ego, or drives slowly ahead.
 
-mod draft;
-mod junctions;
+pub(crate) mod draft;
+pub(crate) mod junctions;
 mod lanes;
 mod narrow_places;
 mod obstacles;
 mod passing;
-mod queues;
+pub(crate) mod queues;
 mod surprises;
 
 use draft::Draft;

@@ -9,7 +9,7 @@ const AHEAD: [&str; 3] = ["first", "second", "third"];
 const ONCOMING: [&str; 4] = ["west-a", "west-b", "west-c", "west-d"];
 
 /// The beginning and the end of a straight street of two lanes along x \[m\].
-const STREET_M: f64 = 200.0;
+pub(crate) const STREET_M: f64 = 200.0;
 /// The front of a column is at least this far before the end of its lane \[m\].
 const LINE_M: f64 = 5.0;
 
@@ -18,7 +18,7 @@ fn car<'a>(name: &'a str, lane: &'a str, along_m: f64, speed_mps: f64, to: Optio
 }
 
 /// A street with a lane in each direction, each of which may use the other; all lanes end at the middle and go on behind it.
-fn street(draft: &mut Draft, limit_mps: f64) {
+pub(crate) fn street(draft: &mut Draft, limit_mps: f64) {
     let lane = |draft: &mut Draft, name: &str, from_m: f64, to_m: f64, next: Option<&str>, beside: &str| {
         let y_m = if to_m > from_m { -1.75 } else { 1.75 };
         let next = next.map(|name| format!("successors = [\"{name}\"]\n")).unwrap_or_default();

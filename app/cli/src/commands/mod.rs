@@ -1,5 +1,6 @@
 //! The subcommands, one a file, and the first run.
 
+pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;

@@ -36,6 +36,7 @@ pub use fault::Faults;
 pub use metric::{
     Measurement, Metric, MomentStates, Needs, ObservedMoment, ObservedTick, SharedStates, VehicleMoment, VehicleTick,
 };
+pub use metrics::beyond_edge_m;
 pub(crate) use metrics::time_gap_s;
 pub use milestones::{Milestones, is_arrival};
 pub use planning::{Beliefs, HeldBelief, Planning};

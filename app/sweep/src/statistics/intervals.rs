@@ -14,19 +14,30 @@ const NORMAL_QUANTILE_95: f64 = 1.959_963_984_540_054;
 /// The mean of numbers with its 95 % interval: quantiles of the means of equally many numbers drawn with
 /// replacement (Efron's percentile bootstrap). None without numbers; `stream`, below 2⁵⁴, separates the draws of intervals.
 pub(crate) fn mean_interval(numbers: &[f64], stream: u64) -> Option<(f64, [f64; 2])> {
-    if numbers.is_empty() {
+    stratified_mean_interval(&[numbers], stream)
+}
+
+/// The mean of the means of strata, which count equally, with its 95 % interval: each resample draws as many numbers with replacement
+/// from every stratum as it has. None without strata, or with an empty one.
+pub fn stratified_mean_interval(strata: &[&[f64]], stream: u64) -> Option<(f64, [f64; 2])> {
+    if strata.is_empty() || strata.iter().any(|numbers| numbers.is_empty()) {
         return None;
     }
-    let count = numbers.len();
+    let over_strata = |mean_of: &mut dyn FnMut(&[f64]) -> f64| {
+        strata.iter().map(|numbers| mean_of(numbers)).sum::<f64>() / strata.len() as f64
+    };
     // Each mean has its own random stream, so the result does not depend on threads.
     let resampled = |resample: u64| {
         let mut random = Random::new(SEED, stream * RESAMPLES + resample);
-        let mut draw = || numbers[(random.uniform(0.0, count as f64) as usize).min(count - 1)];
-        (0..count).map(|_| draw()).sum::<f64>() / count as f64
+        over_strata(&mut |numbers| {
+            let count = numbers.len();
+            let mut draw = || numbers[(random.uniform(0.0, count as f64) as usize).min(count - 1)];
+            (0..count).map(|_| draw()).sum::<f64>() / count as f64
+        })
     };
     let mut means: Vec<f64> = (0..RESAMPLES).into_par_iter().map(resampled).collect();
     means.sort_by(f64::total_cmp);
-    let mean = numbers.iter().sum::<f64>() / count as f64;
+    let mean = over_strata(&mut |numbers| numbers.iter().sum::<f64>() / numbers.len() as f64);
     let bound = |share| quantile(&means, share).unwrap_or(mean);
     Some((mean, BOUNDS.map(bound)))
 }
@@ -105,6 +116,14 @@ mod tests {
         assert_eq!(mean_interval(&numbers, 0), mean_interval(&numbers, 0));
         assert_eq!(mean_interval(&[], 0), None);
         assert_eq!(mean_interval(&[2.0, 2.0], 0), Some((2.0, [2.0, 2.0])));
+    }
+
+    /// Strata count equally, whatever their sizes, and differences between them do not widen the interval.
+    #[test]
+    fn strata_count_equally() {
+        let found = stratified_mean_interval(&[&[1.0; 9], &[4.0]], 0);
+        assert_eq!(found, Some((2.5, [2.5, 2.5])));
+        assert_eq!(stratified_mean_interval(&[&[1.0], &[]], 0), None);
     }
 
     /// `scipy.stats.binomtest(k, n).proportion_ci(method="wilson")` of SciPy 1.17.1.

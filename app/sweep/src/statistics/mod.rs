@@ -2,4 +2,5 @@
 
 mod intervals;
 
+pub use intervals::stratified_mean_interval;
 pub(crate) use intervals::{holm, mean_interval, median, quantile, sign_test, wilson_interval};

@@ -28,7 +28,7 @@ impl Settings {
     }
 
     /// The acceleration of a vehicle behind another one, as its gap between bumpers \[m\] and its speed \[m/s\], \[m/s²\].
-    pub(crate) fn acceleration_behind(&self, speed_mps: f64, wanted_mps: f64, ahead: Option<(f64, f64)>) -> f64 {
+    pub fn acceleration_behind(&self, speed_mps: f64, wanted_mps: f64, ahead: Option<(f64, f64)>) -> f64 {
         self.acceleration(speed_mps, wanted_mps, ahead.map(|(gap_m, speed_mps)| Leader { gap_m, speed_mps }))
     }
 }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use interplay_common::spelling::nearest;
 
+use crate::encounters::Encounter;
 use crate::format::read::embedded::{self, Embedded};
 use crate::format::read::regular_file::read_regular;
 use crate::streets::Street;
@@ -24,6 +25,8 @@ pub enum Source {
     Embedded(&'static Embedded),
     /// A street that is drawn from its name.
     Street(Street),
+    /// A start of the benchmark.
+    Encounter(Encounter),
     /// A file.
     File(PathBuf),
 }
@@ -45,6 +48,9 @@ impl Source {
         if let Some(street) = Street::named(name_or_path) {
             return Ok(Source::Street(street));
         }
+        if let Some(start) = Encounter::named(name_or_path) {
+            return Ok(Source::Encounter(start));
+        }
         let path = PathBuf::from(name_or_path);
         if name_or_path.is_empty() || matches!(fs::exists(&path), Ok(false)) {
             let message = format!("there is no scenario and no file {}", quoted(name_or_path));
@@ -57,7 +63,7 @@ impl Source {
     pub(crate) fn parent(&self, extends: &str) -> Result<Source, Fault> {
         let folder = match self {
             Source::Embedded(file) => Path::new(file.name).parent(),
-            Source::Street(_) => None,
+            Source::Street(_) | Source::Encounter(_) => None,
             Source::File(path) => path.parent(),
         };
         let beside = folder.unwrap_or(Path::new("")).join(extends);
@@ -68,11 +74,13 @@ impl Source {
                 let missing = || Fault::new(format!("there is no scenario {}", quoted(extends)));
                 found.map(Source::Embedded).ok_or_else(|| missing().help(other_names(extends)))
             }
-            Source::Street(_) | Source::File(_) => match (embedded::find(extends), Street::named(extends)) {
-                (Some(file), _) => Ok(Source::Embedded(file)),
-                (None, Some(street)) => Ok(Source::Street(street)),
-                (None, None) => Source::resolve(&beside.to_string_lossy()),
-            },
+            Source::Street(_) | Source::Encounter(_) | Source::File(_) => {
+                match (embedded::find(extends), Street::named(extends)) {
+                    (Some(file), _) => Ok(Source::Embedded(file)),
+                    (None, Some(street)) => Ok(Source::Street(street)),
+                    (None, None) => Source::resolve(&beside.to_string_lossy()),
+                }
+            }
         }
     }
 
@@ -81,6 +89,7 @@ impl Source {
         match self {
             Source::Embedded(file) => file.name.to_owned(),
             Source::Street(street) => street.name(),
+            Source::Encounter(start) => start.to_string(),
             Source::File(path) => path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
         }
     }
@@ -89,6 +98,7 @@ impl Source {
         match self {
             Source::Embedded(file) => format!("{}.toml", file.name),
             Source::Street(street) => format!("{}.toml", street.name()),
+            Source::Encounter(start) => format!("{start}.toml"),
             Source::File(path) => path.display().to_string(),
         }
     }
@@ -98,6 +108,7 @@ impl Source {
         match self {
             Source::Embedded(file) => PathBuf::from(file.name),
             Source::Street(street) => PathBuf::from(street.name()),
+            Source::Encounter(start) => PathBuf::from(start.to_string()),
             Source::File(path) => fs::canonicalize(path).unwrap_or_else(|_| path.clone()),
         }
     }
@@ -107,6 +118,7 @@ impl Source {
         let text = match self {
             Source::Embedded(file) => file.text.to_owned(),
             Source::Street(street) => street.text(),
+            Source::Encounter(start) => start.text(),
             Source::File(path) => decoded(&self.title(), &read_bytes(path, MAX_FILE_BYTES)?, rank)?,
         };
         if text.trim().is_empty() {

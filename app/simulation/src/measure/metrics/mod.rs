@@ -1,6 +1,7 @@
 //! Every metric, one file for each or for a few with similar computations. To add a metric, write its file and name it here.
 
 use super::metric::Metric;
+pub use off_road::beyond_edge_m;
 pub(crate) use time_gap::time_gap_s;
 
 /// Declares the files, and lists their metrics in the order of the columns in rows of sweeps.

@@ -1,7 +1,8 @@
 //! The distance by which a vehicle leaves its road.
 
+use interplay_planners::State;
 use interplay_scenarios::MetricKind::{Flag, Number};
-use interplay_scenarios::{MetricComparison, MetricDeclaration};
+use interplay_scenarios::{MetricComparison, MetricDeclaration, Vehicle};
 
 use crate::measure::metric::{Metric, VehicleMoment};
 use crate::measure::vehicle_metric::{Fold, VehicleMetric, VehicleQuantity};
@@ -36,10 +37,15 @@ const LEAVES_ROAD: VehicleMetric = VehicleMetric::new(
 
 /// The largest distance of a corner beyond the nearest edge of the route's strip; 0 if no corner is beyond one \[m\].
 fn off_road_m(moment: &VehicleMoment<'_>) -> Option<f64> {
-    let VehicleMoment { vehicle, state, along_m, .. } = moment;
+    Some(beyond_edge_m(moment.vehicle, moment.state, moment.along_m))
+}
+
+/// The largest distance of a corner of a vehicle, so far along its route, beyond the nearest edge of the route's strip; 0 if no corner is
+/// beyond one \[m\].
+pub fn beyond_edge_m(vehicle: &Vehicle, state: &State, along_m: f64) -> f64 {
     if vehicle.obstacle.is_some() {
         // A parked car at the kerb breaks no rule, so its distance is 0.
-        return Some(0.0);
+        return 0.0;
     }
     let (sin, cos) = libm::sincos(state.heading_rad);
     let beyond_m = vehicle.body.local_corners().map(|[ahead, left]| {
@@ -48,7 +54,7 @@ fn off_road_m(moment: &VehicleMoment<'_>) -> Option<f64> {
         let [right_m, left_m] = [vehicle.route.right.value(at.along_m), vehicle.route.left.value(at.along_m)];
         (right_m - at.across_m).max(at.across_m - left_m)
     });
-    Some(beyond_m.into_iter().filter(|beyond_m| *beyond_m > ROUNDING_M).fold(0.0, f64::max))
+    beyond_m.into_iter().filter(|beyond_m| *beyond_m > ROUNDING_M).fold(0.0, f64::max)
 }
 
 fn leaves_road(moment: &VehicleMoment<'_>) -> Option<f64> {
@@ -57,8 +63,7 @@ fn leaves_road(moment: &VehicleMoment<'_>) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use interplay_planners::State;
-    use interplay_scenarios::{Vehicle, load};
+    use interplay_scenarios::load;
 
     use super::*;
     use crate::measure::metrics::tests::{at_moments, peak};
