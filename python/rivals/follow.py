@@ -1,4 +1,4 @@
-"""A planner of one's own for Encounters 1: follow the car ahead, keep the lane, yield to whoever comes near the route.
+"""A planner of one's own for Encounters 1: follow the car ahead, keep the lane, yield to others that come near the route.
 
 One line of JSON in for each plan, one out; `interplay bench schema` describes the line that comes in.
 """

@@ -126,8 +126,8 @@ fn holes_between_the_lanes_of_a_junction_are_paved() {
 /// A curve of one lane with a radius in metres and a width.
 fn curve(radius_m: f64, width_m: f64, driver: &str) -> String {
     let road = format!(
-        "{{ kind = \"curve\", lane_count = 1, lane_width_m = {width_m}, pieces = [{{ straight_m = 80.0 }}, {{ turn_deg = 90.0, \
-         radius_m = {radius_m} }}, {{ straight_m = 80.0 }}] }}"
+        "{{ kind = \"curve\", lane_count = 1, lane_width_m = {width_m:?}, pieces = [{{ straight_m = 80.0 }}, {{ turn_deg = 90.0, \
+         radius_m = {radius_m:?} }}, {{ straight_m = 80.0 }}] }}"
     );
     let text = turning(&road, ["0", "0"], "truck", driver);
     text.replace("\"0\"", "0")

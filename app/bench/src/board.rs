@@ -6,7 +6,7 @@ use std::fmt::Write;
 use interplay_scenarios::{ENCOUNTER_VERSION, Encounter, PartnerFamily};
 use interplay_sweep::stratified_mean_interval;
 
-use crate::entry::{Entry, EntryRun, cells, mean_score};
+use crate::entry::{BenchEntry, EntryRun, cells, mean_score};
 use crate::error::BenchError;
 
 /// All runs of one planner, of one or several entries.
@@ -21,7 +21,7 @@ struct Ranked {
 ///
 /// # Errors
 /// [`BenchError::Refused`] for no entries, entries of several splits or of another version, and planners with different starts.
-pub fn board(entries: &[Entry]) -> Result<String, BenchError> {
+pub fn board(entries: &[BenchEntry]) -> Result<String, BenchError> {
     let ranked = ranked(entries)?;
     let split = &entries[0].selection.split;
     let starts = ranked[0].runs.len();
@@ -42,7 +42,7 @@ fn refused<T>(reason: String) -> Result<T, BenchError> {
 }
 
 /// The planners, the best first.
-fn ranked(entries: &[Entry]) -> Result<Vec<Ranked>, BenchError> {
+fn ranked(entries: &[BenchEntry]) -> Result<Vec<Ranked>, BenchError> {
     let Some(first) = entries.first() else { return refused("there are no entries".to_owned()) };
     let mut by_name: BTreeMap<&str, BTreeMap<&str, &EntryRun>> = BTreeMap::new();
     for entry in entries {
@@ -70,7 +70,7 @@ fn ranked(entries: &[Entry]) -> Result<Vec<Ranked>, BenchError> {
     Ok(ranked)
 }
 
-/// Strata are encounters and families where each has at least so many runs, otherwise encounters: resamples of few differ too little.
+/// Strata are encounters and families where each has at least this number of runs, otherwise encounters: resamples of few differ too little.
 const LEAST_RUNS: usize = 5;
 
 /// The mean score with its interval, or that of the paired differences from another planner on the same starts.
@@ -81,6 +81,10 @@ fn interval(one: &[EntryRun], other: Option<&[EntryRun]>, stream: u64) -> Option
         let (encounter, family) = run.cell()?;
         let value = run.score.score - other.map_or(0.0, |other| other[index].score.score);
         strata.entry((encounter, if is_fine { family } else { "" })).or_default().push(value);
+    }
+    // Resamples of a single run all equal it, which is not a narrow interval.
+    if strata.values().any(|values| values.len() < 2) {
+        return None;
     }
     let strata: Vec<&[f64]> = strata.values().map(Vec::as_slice).collect();
     stratified_mean_interval(&strata, stream)

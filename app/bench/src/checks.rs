@@ -1,4 +1,4 @@
-//! Planners that a benchmark of interaction must rank low: one that waits for everybody, one that waits for nobody, and one that keeps its
+//! Planners that a benchmark of interaction must rank low: one that waits for all others, one that waits for none, and one that keeps its
 //! velocity. They know their route, and of the others only pose, speed and size.
 
 use interplay_planners::drivers::idm;
@@ -10,15 +10,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::error::BenchError;
-use crate::pdm::Pdm;
 
-/// The registry with the kinds of the benchmark: three checks and `pdm`.
+/// The registry with the three checks.
 ///
 /// # Errors
 /// If a word of them is taken.
 pub fn with_checks(registry: &Registry) -> Result<Registry, BenchError> {
     let registry = registry.clone().with_driver::<Waiter>()?.with_driver::<Pusher>()?;
-    Ok(registry.with_driver::<ConstantVelocity>()?.with_driver::<Pdm>()?)
+    Ok(registry.with_driver::<ConstantVelocity>()?)
 }
 
 /// How far the waiter looks ahead \[s\], in steps of \[s\].

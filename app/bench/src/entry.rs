@@ -13,7 +13,7 @@ use sha2::{Digest, Sha256};
 use crate::error::BenchError;
 use crate::people::PEOPLE;
 use crate::planner::{InputRow, PlannerSpec, Wheel};
-use crate::score::Score;
+use crate::score::StartScore;
 use crate::start::{Outcome, Start};
 
 /// Which starts of a split.
@@ -42,7 +42,7 @@ impl Selection {
         let split: EncounterSplit = self.split.parse().map_err(BenchError::Selection)?;
         if let Some(word) = self.encounter.as_deref().filter(|word| Encounter::kinds().all(|kind| kind != *word)) {
             let known = Encounter::kinds().collect::<Vec<_>>().join(", ");
-            return Err(BenchError::Selection(format!("there is no encounter `{word}`; the encounters are {known}")));
+            return Err(BenchError::Selection(format!("`{word}` is not an encounter; the encounters are {known}")));
         }
         let shard: Shard = match &self.shard {
             Some(text) => {
@@ -76,7 +76,7 @@ pub struct EntryRun {
     /// The start.
     pub id: String,
     /// The score with its parts.
-    pub score: Score,
+    pub score: StartScore,
     /// When the ego reached its goal \[s\].
     pub completed_s: Option<f64>,
     /// When the reference driver does alone \[s\].
@@ -103,7 +103,7 @@ pub struct EntryRun {
 /// An entry of the benchmark.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Entry {
+pub struct BenchEntry {
     /// The name of the planner on the board.
     pub name: String,
     /// The set with its minor version.
@@ -152,9 +152,9 @@ impl EntryRun {
     }
 }
 
-impl Entry {
-    fn new(name: &str, planner: &PlannerSpec, selection: &Selection, runs: Vec<EntryRun>) -> Entry {
-        let mut entry = Entry {
+impl BenchEntry {
+    fn new(name: &str, planner: &PlannerSpec, selection: &Selection, runs: Vec<EntryRun>) -> BenchEntry {
+        let mut entry = BenchEntry {
             name: name.to_owned(),
             set: ENCOUNTER_VERSION.to_owned(),
             people: PEOPLE.trim().to_owned(),
@@ -173,7 +173,7 @@ impl Entry {
     /// The seal that the content has.
     pub(crate) fn sealed(&self) -> String {
         let runs = self.runs.iter().map(|run| EntryRun { planning_s: 0.0, ..run.clone() }).collect();
-        let content = Entry { planning_s: 0.0, seal: String::new(), runs, ..self.clone() };
+        let content = BenchEntry { planning_s: 0.0, seal: String::new(), runs, ..self.clone() };
         format!("{:x}", Sha256::digest(serde_json::to_vec(&content).unwrap_or_default()))
     }
 
@@ -181,7 +181,7 @@ impl Entry {
     ///
     /// # Errors
     /// If it cannot be read, or is not an entry.
-    pub fn read(path: &Path) -> Result<Entry, BenchError> {
+    pub fn read(path: &Path) -> Result<BenchEntry, BenchError> {
         let text = fs::read_to_string(path).map_err(|reason| BenchError::File { path: path.to_owned(), reason })?;
         let wrong =
             |error: serde_json::Error| BenchError::NotAnEntry { path: path.to_owned(), reason: error.to_string() };
@@ -194,7 +194,7 @@ impl Entry {
     /// If the file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), BenchError> {
         let runs: Vec<String> = self.runs.iter().filter_map(|run| serde_json::to_string(run).ok()).collect();
-        let head = serde_json::to_string_pretty(&Entry { runs: Vec::new(), ..self.clone() }).unwrap_or_default();
+        let head = serde_json::to_string_pretty(&BenchEntry { runs: Vec::new(), ..self.clone() }).unwrap_or_default();
         let text = head.replacen("\"runs\": []", &format!("\"runs\": [\n{}\n]", runs.join(",\n")), 1) + "\n";
         interplay_files::write(path, text.as_bytes())
             .map_err(|reason| BenchError::File { path: path.to_owned(), reason })
@@ -229,7 +229,7 @@ pub fn run_entry(
     planners: &[(String, PlannerSpec)],
     selection: &Selection,
     advance: &(dyn Fn() + Sync),
-) -> Result<Vec<Entry>, BenchError> {
+) -> Result<Vec<BenchEntry>, BenchError> {
     let encounters = selection.encounters()?;
     let on_start = |encounter: &Encounter| -> Result<Vec<EntryRun>, BenchError> {
         let start = Start::new(registry, *encounter)?;
@@ -240,7 +240,7 @@ pub fn run_entry(
     };
     let by_start: Vec<Vec<EntryRun>> = encounters.par_iter().with_max_len(1).map(on_start).collect::<Result<_, _>>()?;
     let of = |(index, (name, planner)): (usize, &(String, PlannerSpec))| {
-        Entry::new(name, planner, selection, by_start.iter().map(|runs| runs[index].clone()).collect())
+        BenchEntry::new(name, planner, selection, by_start.iter().map(|runs| runs[index].clone()).collect())
     };
     Ok(planners.iter().enumerate().map(of).collect())
 }

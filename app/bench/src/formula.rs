@@ -18,3 +18,5 @@ pub const UNCOMFORTABLE: [f64; 2] = [5.0, 3.0];
 pub const OFF_ROAD: [f64; 2] = [0.3, 0.5];
 /// After the goal the run goes on for this time, so that what the ego did to the others shows \[s\].
 pub const AFTERWARDS_S: f64 = 4.0;
+/// The name of the vehicle that is judged.
+pub const EGO: &str = "ego";

@@ -14,7 +14,6 @@ mod entry;
 mod error;
 pub mod formula;
 pub mod observation;
-mod pdm;
 mod people;
 mod pipe;
 mod planner;
@@ -25,7 +24,7 @@ mod verify;
 
 pub use board::board;
 pub use checks::with_checks;
-pub use entry::{Entry, EntryRun, Selection, run_entry};
+pub use entry::{BenchEntry, EntryRun, Selection, run_entry};
 pub use error::BenchError;
 pub use people::{PEOPLE, people_digest};
 pub use planner::{InputRow, PlannerSpec};

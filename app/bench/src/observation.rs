@@ -24,7 +24,7 @@ const SPACING_M: [f64; 2] = [5.0, 2.0];
 
 /// What a planner is given. Lengths in m, speeds in m/s, angles in rad, the x axis to the east, headings counter-clockwise from it.
 #[derive(Debug, Serialize, JsonSchema)]
-pub struct Observation {
+pub struct PlannerObservation {
     /// The version of the schema: `EN1-observation-1`.
     pub schema: &'static str,
     /// Time since the start \[s\].
@@ -146,9 +146,9 @@ pub struct OwnGoal {
     pub wanted_speed_mps: f64,
 }
 
-/// The JSON Schema of [`Observation`].
+/// The JSON Schema of [`PlannerObservation`].
 pub fn schema() -> serde_json::Value {
-    schemars::schema_for!(Observation).to_value()
+    schemars::schema_for!(PlannerObservation).to_value()
 }
 
 /// What is remembered of a run in order to observe it.
@@ -176,7 +176,7 @@ impl Observer {
     }
 
     /// What the ego sees now, after [`Observer::watch`].
-    pub fn observation(&self, world: &Simulation) -> Observation {
+    pub fn observation(&self, world: &Simulation) -> PlannerObservation {
         let (scenario, row) = (world.scenario(), world.scenario().ego_index());
         let states = self.past.back().cloned().unwrap_or_default();
         let vehicle = &scenario.vehicles[row];
@@ -193,7 +193,7 @@ impl Observer {
             SeenLane { light: light.map(|light| light.colour_at(world.time_s())), ..lane.clone() }
         };
         let (route, goal) = route_and_goal(scenario, &states[row]);
-        Observation {
+        PlannerObservation {
             schema: OBSERVATION_VERSION,
             time_s: world.time_s(),
             period_s: scenario.planning_period_s(),

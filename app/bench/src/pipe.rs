@@ -9,7 +9,7 @@ use interplay_planners::Input;
 use serde::Deserialize;
 
 use crate::error::BenchError;
-use crate::observation::Observation;
+use crate::observation::PlannerObservation;
 
 /// An answer that takes longer is a failed plan \[s\].
 const LONGEST_S: u64 = 10;
@@ -53,7 +53,7 @@ impl Pipe {
     }
 
     /// The program's answer to an observation, or why it has none.
-    pub fn ask(&mut self, observation: &Observation) -> Result<Input, String> {
+    pub fn ask(&mut self, observation: &PlannerObservation) -> Result<Input, String> {
         if self.failures >= MOST_FAILURES {
             return Err("the program has failed too often".to_owned());
         }
@@ -66,7 +66,7 @@ impl Pipe {
         answered
     }
 
-    fn answer(&mut self, observation: &Observation) -> Result<Input, String> {
+    fn answer(&mut self, observation: &PlannerObservation) -> Result<Input, String> {
         let line = serde_json::to_string(observation).map_err(|error| error.to_string())?;
         let running = match &mut self.running {
             Some(running) => running,

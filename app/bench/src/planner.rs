@@ -11,9 +11,9 @@ use interplay_simulation::run::RunError;
 use serde::{Deserialize, Serialize};
 
 use crate::error::BenchError;
+use crate::formula::EGO;
 use crate::observation::Observer;
 use crate::pipe::Pipe;
-use crate::trace::EGO;
 
 /// An input that holds from a plan on: the plan, counted from 0, the acceleration \[µm/s²\] and the steering angle \[nrad\]. Whole numbers
 /// are read from a file exactly as they were written.

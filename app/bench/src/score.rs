@@ -18,7 +18,7 @@ use crate::trace::{EgoTrace, OtherTrace, Trace};
 /// The score of one start with its parts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Score {
+pub struct StartScore {
     /// Whether nothing was broken and the goal was reached.
     pub g: f64,
     /// Progress.
@@ -31,21 +31,21 @@ pub struct Score {
     pub score: f64,
 }
 
-impl Score {
+impl StartScore {
     /// The score from its parts.
-    pub fn of_parts([g, p, c, k]: [f64; 4]) -> Score {
-        Score { g, p, c, k, score: 100.0 * g * p * c * k }
+    pub fn of_parts([g, p, c, k]: [f64; 4]) -> StartScore {
+        StartScore { g, p, c, k, score: 100.0 * g * p * c * k }
     }
 
     /// The score of a run, compared with the same start without the ego.
-    pub(crate) fn of_run(ego: &EgoTrace, with: &Trace, without: &Trace, alone_s: f64) -> Score {
+    pub(crate) fn of_run(ego: &EgoTrace, with: &Trace, without: &Trace, alone_s: f64) -> StartScore {
         let completed_s = ego.completed_s.filter(|_| ego.failure.is_none());
         let lost_s = completed_s.map_or(MOST_LOST_S, |completed_s| completed_s - alone_s);
         let p = (1.0 - lost_s / MOST_LOST_S).clamp(0.0, 1.0);
         let [delay_s, braking_mps] = caused(with, without);
         let c = (1.0 - delay_s / MOST_DELAY_S - braking_mps / MOST_BRAKING_MPS).max(0.0);
         let k = 1.0 - DISCOMFORT_WEIGHT * ego.uncomfortable_share();
-        Score::of_parts([if completed_s.is_some() { 1.0 } else { 0.0 }, p, c, k])
+        StartScore::of_parts([if completed_s.is_some() { 1.0 } else { 0.0 }, p, c, k])
     }
 }
 
@@ -102,7 +102,7 @@ mod tests {
         let free = moving(10.0, 300, 0..0);
         assert!((delay(&moving(10.0, 200, 50..80), &free, 0.1) - 3.0).abs() < 1e-9);
         assert_eq!(delay(&moving(11.0, 200, 0..0), &free, 0.1), 0.0, "it is earlier");
-        // Both stand at the end, one of them 10 cm behind the other: that is no delay of some seconds.
+        // Both stand at the end, one of them 10 cm behind the other: that does not cost seconds.
         let (mut one, other) = (moving(10.0, 200, 50..200), moving(10.0, 200, 50..200));
         *one.along_m.last_mut().expect("ticks") -= 0.1;
         assert!(delay(&one, &other, 0.1) < 0.11);
@@ -118,12 +118,12 @@ mod tests {
         let held = trace(vec![moving(10.0, 200, 50..100)]);
         let free = trace(vec![moving(10.0, 200, 0..0)]);
         let ego = EgoTrace { completed_s: Some(13.0), ticks: 200, ..EgoTrace::default() };
-        assert!((Score::of_run(&ego, &free, &without, 10.0).score - 80.0).abs() < 1e-9);
-        assert!((Score::of_run(&ego, &held, &without, 10.0).score - 40.0).abs() < 1e-6);
+        assert!((StartScore::of_run(&ego, &free, &without, 10.0).score - 80.0).abs() < 1e-9);
+        assert!((StartScore::of_run(&ego, &held, &without, 10.0).score - 40.0).abs() < 1e-6);
         let failed = EgoTrace { failure: Some("contact".to_owned()), ..ego.clone() };
-        assert_eq!(Score::of_run(&failed, &free, &without, 10.0).score, 0.0);
+        assert_eq!(StartScore::of_run(&failed, &free, &without, 10.0).score, 0.0);
         let rough = EgoTrace { uncomfortable_ticks: 100, ..ego };
-        assert!((Score::of_run(&rough, &free, &without, 13.0).score - 90.0).abs() < 1e-9);
+        assert!((StartScore::of_run(&rough, &free, &without, 13.0).score - 90.0).abs() < 1e-9);
     }
 
     #[test]

@@ -3,10 +3,10 @@
 use interplay_scenarios::{Encounter, LoadError, Override, Registry, Scenario};
 
 use crate::error::BenchError;
-use crate::formula::MOST_LOST_S;
+use crate::formula::{EGO, MOST_LOST_S};
 use crate::planner::{PlannerSpec, Wheel};
-use crate::score::{Score, caused};
-use crate::trace::{EGO, EgoTrace, Trace, trace};
+use crate::score::{StartScore, caused};
+use crate::trace::{EgoTrace, Trace, trace};
 
 /// The reference driver reaches every goal alone within this time \[s\].
 const ALONE_S: f64 = 60.0;
@@ -24,7 +24,7 @@ pub struct Start {
 /// What a planner did on a start.
 #[derive(Debug)]
 pub(crate) struct Outcome {
-    pub score: Score,
+    pub score: StartScore,
     pub ego: EgoTrace,
     pub delay_s: f64,
     pub braking_mps: f64,
@@ -71,7 +71,7 @@ impl Start {
         let driven = trace(&scenario, limit_s, wheel.as_mut());
         let with = driven.map_err(|reason| BenchError::Run { id: self.id.clone(), reason })?;
         let mut ego = with.ego.clone().unwrap_or_default();
-        let score = Score::of_run(&ego, &with, &self.without, self.alone_s);
+        let score = StartScore::of_run(&ego, &with, &self.without, self.alone_s);
         if ego.completed_s.is_none() && ego.failure.is_none() {
             ego.failure = Some("no goal in time".to_owned());
         }

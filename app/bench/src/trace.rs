@@ -7,11 +7,8 @@ use interplay_simulation::frame::{Frame, RoadRule};
 use interplay_simulation::measure::{Subscriptions, beyond_edge_m};
 use interplay_simulation::run::RunError;
 
-use crate::formula::{AFTERWARDS_S, FREE_BRAKING_MPS2, OFF_ROAD, UNCOMFORTABLE};
+use crate::formula::{AFTERWARDS_S, EGO, FREE_BRAKING_MPS2, OFF_ROAD, UNCOMFORTABLE};
 use crate::planner::Wheel;
-
-/// The name of the vehicle that is judged.
-pub(crate) const EGO: &str = "ego";
 
 /// What is measured of the ego by the simulation: it makes known whose fault contacts are, and which rules are broken.
 const METRICS: [&str; 2] = ["contacts_at_fault", "rules_broken"];

@@ -3,11 +3,11 @@
 use interplay_scenarios::{ENCOUNTER_VERSION, Encounter, Registry};
 use rayon::prelude::*;
 
-use crate::entry::{Entry, EntryRun, mean_score};
+use crate::entry::{BenchEntry, EntryRun, mean_score};
 use crate::error::BenchError;
 use crate::people::PEOPLE;
 use crate::planner::PlannerSpec;
-use crate::score::Score;
+use crate::score::StartScore;
 use crate::start::Start;
 
 /// What was checked of an entry that holds.
@@ -26,7 +26,7 @@ pub struct Verified {
 /// [`BenchError::Refused`] says what does not hold.
 pub fn verify(
     registry: &Registry,
-    entry: &Entry,
+    entry: &BenchEntry,
     every: usize,
     advance: &(dyn Fn() + Sync),
 ) -> Result<Verified, BenchError> {
@@ -47,7 +47,7 @@ fn refused<T>(reason: String) -> Result<T, BenchError> {
 }
 
 /// What can be checked without a run.
-fn check_content(entry: &Entry) -> Result<(), BenchError> {
+fn check_content(entry: &BenchEntry) -> Result<(), BenchError> {
     if entry.set != ENCOUNTER_VERSION || entry.people != PEOPLE.trim() {
         let [theirs, ours] = [&entry.set, &entry.people].map(String::as_str).map(short).into();
         return refused(format!(
@@ -65,8 +65,8 @@ fn check_content(entry: &Entry) -> Result<(), BenchError> {
         return refused("its runs are not those of its selection, in order".to_owned());
     }
     for run in &entry.runs {
-        let Score { g, p, c, k, .. } = run.score;
-        if Score::of_parts([g, p, c, k]) != run.score {
+        let StartScore { g, p, c, k, .. } = run.score;
+        if StartScore::of_parts([g, p, c, k]) != run.score {
             return refused(format!("the score of {} does not follow from its parts", run.id));
         }
     }
@@ -84,8 +84,8 @@ fn short(digest: &str) -> &str {
 }
 
 /// Drives or replays a run again and compares it.
-fn repeated(registry: &Registry, entry: &Entry, run: &EntryRun) -> Result<(), BenchError> {
-    let Some(encounter) = Encounter::named(&run.id) else { return refused(format!("there is no start {}", run.id)) };
+fn repeated(registry: &Registry, entry: &BenchEntry, run: &EntryRun) -> Result<(), BenchError> {
+    let Some(encounter) = Encounter::named(&run.id) else { return refused(format!("no start is called {}", run.id)) };
     let planner = match (&entry.planner, &run.inputs) {
         (_, Some(inputs)) => PlannerSpec::Inputs(inputs.clone()),
         (PlannerSpec::Kind { .. }, None) => entry.planner.clone(),
@@ -108,7 +108,7 @@ mod tests {
     use crate::checks::with_checks;
     use crate::entry::{Selection, run_entry};
 
-    /// Whoever changes an entry can make the seal anew, and is found when the run is repeated.
+    /// The seal of a changed entry can be made anew; the change is found when the run is repeated.
     #[test]
     fn a_changed_digit_under_a_new_seal_is_found_by_repeating_the_run() {
         let registry = with_checks(Registry::standard()).expect("free words");

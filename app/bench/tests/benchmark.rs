@@ -1,6 +1,6 @@
-//! Entries repeat bit for bit, whoever drives; what was changed in one is found; a program that fails costs its score and nothing else.
+//! Entries repeat bit for bit, whatever drives; what was changed in one is found; a program that fails costs its score and nothing else.
 
-use interplay_bench::{BenchError, Entry, PlannerSpec, Selection, board, run_entry, verify, with_checks};
+use interplay_bench::{BenchEntry, BenchError, PlannerSpec, Selection, board, run_entry, verify, with_checks};
 use interplay_scenarios::Registry;
 
 /// A program that keeps its speed and steers straight on, as long as it is alive.
@@ -22,20 +22,20 @@ fn selection(encounter: &str, starts: [u32; 2]) -> Selection {
     Selection { split: "dev".to_owned(), encounter: Some(encounter.to_owned()), starts: Some(starts), shard: None }
 }
 
-fn entries(planners: &[(String, PlannerSpec)], selection: &Selection, threads: usize) -> Vec<Entry> {
+fn entries(planners: &[(String, PlannerSpec)], selection: &Selection, threads: usize) -> Vec<BenchEntry> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     pool.install(|| run_entry(&registry(), planners, selection, &|| ())).expect("runs")
 }
 
 /// All but wall times.
-fn repeatable(entry: &Entry) -> Entry {
+fn repeatable(entry: &BenchEntry) -> BenchEntry {
     let mut entry = entry.clone();
     entry.planning_s = 0.0;
     entry.runs.iter_mut().for_each(|run| run.planning_s = 0.0);
     entry
 }
 
-fn refusal(entry: &Entry) -> String {
+fn refusal(entry: &BenchEntry) -> String {
     match verify(&registry(), entry, 1, &|| ()) {
         Err(BenchError::Refused(reason)) => reason,
         other => panic!("{other:?}"),
@@ -62,21 +62,21 @@ fn what_was_changed_in_an_entry_is_found() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("entry.json");
     entry.write(&path).expect("written");
-    assert_eq!(Entry::read(&path).expect("read"), entry);
+    assert_eq!(BenchEntry::read(&path).expect("read"), entry);
 
     let text = std::fs::read_to_string(&path).expect("read");
     let digest = entry.runs[1].digest.clone();
     let last = if digest.ends_with('0') { "1" } else { "0" };
     let changed = format!("{}{last}", &digest[..digest.len() - 1]);
     std::fs::write(&path, text.replace(&digest, &changed)).expect("written");
-    assert!(refusal(&Entry::read(&path).expect("read")).contains("sealed"));
+    assert!(refusal(&BenchEntry::read(&path).expect("read")).contains("sealed"));
 
     let mut left_out = entry.clone();
     let run = left_out.runs.remove(0);
     assert!(refusal(&left_out).contains(&format!("{} was left out", run.id)));
-    let other_version = Entry { set: "EN1.7".to_owned(), ..entry.clone() };
+    let other_version = BenchEntry { set: "EN1.7".to_owned(), ..entry.clone() };
     assert!(refusal(&other_version).contains("EN1.7"));
-    let better = Entry { score: entry.score + 1.0, ..entry };
+    let better = BenchEntry { score: entry.score + 1.0, ..entry };
     assert!(refusal(&better).contains("its runs give"));
 }
 
@@ -93,7 +93,7 @@ fn inputs_of_another_program_are_replayed_to_the_same_bits() {
     assert_eq!(verify(&registry(), &original, 1, &|| ()).expect("it holds").repeated, 2);
 }
 
-/// Not a number, an end without an answer, and a text that is no answer: the ego brakes, and the run goes on.
+/// Not a number, an end without an answer, and a text that is not an answer: the ego brakes, and the run goes on.
 #[cfg(unix)]
 #[test]
 fn a_program_that_fails_brakes_and_does_not_end_the_benchmark() {

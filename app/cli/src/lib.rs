@@ -29,8 +29,8 @@ use interplay_simulation::measure::RegisterMetrics;
 
 use crate::output::error::ExitStatus;
 use commands::{
-    bench, check, compare, completions, export_fmu, fit, fmu_host, identify, import, list, man, new, play, predict, reproduce,
-    run, schema, suite, sweep, view, why,
+    bench, check, compare, completions, export_fmu, fit, fmu_host, identify, import, list, man, new, play, predict,
+    reproduce, run, schema, suite, sweep, view, why,
 };
 
 /// The version and the commit it was built from, which packages name in the environment variable `INTERPLAY_COMMIT`.

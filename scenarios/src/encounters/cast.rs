@@ -1,6 +1,6 @@
 //! A start under construction: the draft, and the vehicles of its family.
 
-use super::PartnerFamily;
+use super::families::PartnerFamily;
 use crate::streets::draft::{Draft, Draftee, SCRIPTED};
 
 /// Vehicles of one lane that reach a place one after the other.

@@ -6,17 +6,18 @@
 //! always possible and costs time.
 
 mod cast;
+mod families;
 mod junctions;
 mod merging;
 mod streets;
 
 use std::fmt;
-use std::str::FromStr;
 
 use sha2::{Digest, Sha256};
 
 use crate::streets::draft::Draft;
 use cast::Cast;
+pub use families::{EncounterSplit, PartnerFamily};
 
 /// The set with its minor version: scores compare within one minor version only.
 pub const ENCOUNTER_VERSION: &str = "EN1.0";
@@ -27,142 +28,24 @@ const SET: &str = "EN1";
 /// What the seeds of `sealed` depend on: the set, the formula, the sources of the planners and the pins of rivals, and the round.
 pub const ENCOUNTER_MANIFEST: &str = include_str!("../../encounters/manifest.toml");
 
-/// One kind of encounter: its word, its description, and the function that draws a start.
-struct EncounterKind {
-    word: &'static str,
-    shows: &'static str,
-    draw: fn(&mut Cast),
-}
+/// An encounter: its word, its description, and the function that draws a start.
+type Kind = (&'static str, &'static str, fn(&mut Cast));
 
 /// Seeds follow from the words, so the order is only that of tables.
-const KINDS: [EncounterKind; 12] = [
-    EncounterKind { word: "merge-dense", shows: "The ego joins dense traffic from a ramp", draw: merging::merge_dense },
-    EncounterKind { word: "lane-end", shows: "The ego's lane ends beside a stream", draw: merging::lane_end },
-    EncounterKind { word: "zipper", shows: "Two slow queues become one", draw: merging::zipper },
-    EncounterKind { word: "exit-across", shows: "The ego's exit lies across a stream", draw: merging::exit_across },
-    EncounterKind {
-        word: "left-turn",
-        shows: "The ego turns left across oncoming traffic",
-        draw: junctions::left_turn,
-    },
-    EncounterKind {
-        word: "crossing-priority",
-        shows: "The ego crosses a main road with traffic in both directions",
-        draw: junctions::crossing_priority,
-    },
-    EncounterKind {
-        word: "crossing-equal",
-        shows: "Roads meet without signs: right before left",
-        draw: junctions::crossing_equal,
-    },
-    EncounterKind {
-        word: "narrow-queue",
-        shows: "A queue comes through a passage for one vehicle",
-        draw: streets::narrow_queue,
-    },
-    EncounterKind { word: "roundabout", shows: "The ego enters a busy roundabout", draw: junctions::roundabout },
-    EncounterKind {
-        word: "double-parked",
-        shows: "Vans stand in the ego's lane, and traffic comes the other way",
-        draw: streets::double_parked,
-    },
-    EncounterKind { word: "t-fast", shows: "The ego turns onto a fast road", draw: junctions::t_fast },
-    EncounterKind {
-        word: "zebra-stream",
-        shows: "A stream of pedestrians uses a zebra crossing",
-        draw: streets::zebra_stream,
-    },
+const KINDS: [Kind; 12] = [
+    ("merge-dense", "The ego joins dense traffic from a ramp", merging::merge_dense),
+    ("lane-end", "The ego's lane ends beside a stream", merging::lane_end),
+    ("zipper", "Two slow queues become one", merging::zipper),
+    ("exit-across", "The ego's exit lies across a stream", merging::exit_across),
+    ("left-turn", "The ego turns left across oncoming traffic", junctions::left_turn),
+    ("crossing-priority", "The ego crosses a main road with traffic in both directions", junctions::crossing_priority),
+    ("crossing-equal", "Roads meet without signs: right before left", junctions::crossing_equal),
+    ("narrow-queue", "A queue comes through a passage for one vehicle", streets::narrow_queue),
+    ("roundabout", "The ego enters a busy roundabout", junctions::roundabout),
+    ("double-parked", "Vans stand in the ego's lane, and traffic comes the other way", streets::double_parked),
+    ("t-fast", "The ego turns onto a fast road", junctions::t_fast),
+    ("zebra-stream", "A stream of pedestrians uses a zebra crossing", streets::zebra_stream),
 ];
-
-/// A part of the set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum EncounterSplit {
-    /// For development: planners may be tuned on it.
-    Dev,
-    /// For published scores.
-    Test,
-    /// The same with seeds that follow from the frozen manifest.
-    Sealed,
-}
-
-impl EncounterSplit {
-    /// All splits.
-    pub const ALL: [EncounterSplit; 3] = [EncounterSplit::Dev, EncounterSplit::Test, EncounterSplit::Sealed];
-
-    /// Its word in names.
-    pub fn word(self) -> &'static str {
-        match self {
-            EncounterSplit::Dev => "dev",
-            EncounterSplit::Test => "test",
-            EncounterSplit::Sealed => "sealed",
-        }
-    }
-
-    /// Number of starts of each encounter.
-    pub fn starts(self) -> u32 {
-        match self {
-            EncounterSplit::Dev => 40,
-            EncounterSplit::Test => 100,
-            EncounterSplit::Sealed => 50,
-        }
-    }
-
-    /// The families of its starts, in turn; two are not in `dev`.
-    pub fn families(self) -> &'static [PartnerFamily] {
-        let all = &PartnerFamily::ALL;
-        if self == EncounterSplit::Dev { &all[..4] } else { all }
-    }
-}
-
-impl FromStr for EncounterSplit {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<EncounterSplit, String> {
-        let known = || "splits are dev, test and sealed".to_owned();
-        EncounterSplit::ALL.into_iter().find(|split| split.word() == text).ok_or_else(known)
-    }
-}
-
-/// What drives the vehicles that the ego meets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum PartnerFamily {
-    /// People of the continuum from nice to tough.
-    People,
-    /// People as measured on real roads.
-    Measured,
-    /// IDM with MOBIL.
-    Idm,
-    /// Vehicles that keep lane and speed and do not react.
-    Keeper,
-    /// People that react and decide late. Not in `dev`.
-    Erratic,
-    /// Vehicles that negotiate themselves. Not in `dev`.
-    Negotiating,
-}
-
-impl PartnerFamily {
-    /// All families, those of every split first.
-    pub const ALL: [PartnerFamily; 6] = [
-        PartnerFamily::People,
-        PartnerFamily::Measured,
-        PartnerFamily::Idm,
-        PartnerFamily::Keeper,
-        PartnerFamily::Erratic,
-        PartnerFamily::Negotiating,
-    ];
-
-    /// Its word in names.
-    pub fn word(self) -> &'static str {
-        match self {
-            PartnerFamily::People => "people",
-            PartnerFamily::Measured => "measured",
-            PartnerFamily::Idm => "idm",
-            PartnerFamily::Keeper => "keeper",
-            PartnerFamily::Erratic => "erratic",
-            PartnerFamily::Negotiating => "negotiating",
-        }
-    }
-}
 
 /// A start of the benchmark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -175,7 +58,7 @@ pub struct Encounter {
 impl Encounter {
     /// The words of all encounters.
     pub fn kinds() -> impl Iterator<Item = &'static str> {
-        KINDS.iter().map(|kind| kind.word)
+        KINDS.iter().map(|(word, ..)| *word)
     }
 
     /// All starts of a split, encounter by encounter.
@@ -188,7 +71,7 @@ impl Encounter {
         let mut parts = name.strip_prefix(SET)?.strip_prefix('/')?.split('/');
         let split: EncounterSplit = parts.next()?.parse().ok()?;
         let word = parts.next()?;
-        let kind = KINDS.iter().position(|kind| kind.word == word)?;
+        let kind = KINDS.iter().position(|kind| kind.0 == word)?;
         let number = parts.next()?.split_once(':')?.0.parse().ok()?;
         Some(Encounter { split, kind, number }).filter(|start| number < split.starts() && start.to_string() == name)
     }
@@ -200,7 +83,7 @@ impl Encounter {
 
     /// The word of its encounter.
     pub fn kind(&self) -> &'static str {
-        KINDS[self.kind].word
+        KINDS[self.kind].0
     }
 
     /// Its number within the encounter.
@@ -228,15 +111,12 @@ impl Encounter {
 
     /// The text of the scenario file.
     pub fn text(&self) -> String {
-        let (kind, seed) = (&KINDS[self.kind], self.seed());
+        let ((_, shows, draw), seed) = (KINDS[self.kind], self.seed());
         let mut cast = Cast::new(Draft::new(seed, 0), self.family());
-        (kind.draw)(&mut cast);
+        draw(&mut cast);
         // Vehicles leave where their routes end, so that no queue forms there.
-        let text = cast.finished(&self.to_string(), kind.shows).replacen(
-            "[defaults]\n",
-            "[defaults]\nleaves_at_end = true\n",
-            1,
-        );
+        let text =
+            cast.finished(&self.to_string(), shows).replacen("[defaults]\n", "[defaults]\nleaves_at_end = true\n", 1);
         // Numbers of a file are at most those of a signed integer of 64 bits.
         format!("seed = {}\n{text}", seed >> 1)
     }

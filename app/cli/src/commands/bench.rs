@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use interplay_bench::{
-    BenchError, Entry, PEOPLE, PlannerSpec, Selection, Verified, board, observation, run_entry, verify, with_checks,
+    BenchEntry, BenchError, PEOPLE, PlannerSpec, Selection, Verified, board, observation, run_entry, verify,
+    with_checks,
 };
 use interplay_scenarios::{ENCOUNTER_VERSION, Encounter, EncounterSplit, Registry};
 use interplay_sweep::Shard;
@@ -218,7 +219,7 @@ fn verified(
     every: NonZeroUsize,
     jobs: Option<NonZeroUsize>,
 ) -> Result<String, BenchError> {
-    let entry = Entry::read(path)?;
+    let entry = BenchEntry::read(path)?;
     let progress = Progress::with_time_left(entry.runs.len().div_ceil(every.get()));
     let checked = on_threads(jobs, entry.runs.len(), || verify(registry, &entry, every.get(), &|| progress.advance()));
     progress.clear();
@@ -232,11 +233,11 @@ fn verified(
 }
 
 /// All entries of a folder, by name.
-fn read_all(folder: &Path) -> Result<Vec<Entry>, BenchError> {
+fn read_all(folder: &Path) -> Result<Vec<BenchEntry>, BenchError> {
     let unreadable = |reason| BenchError::File { path: folder.to_owned(), reason };
     let files = fs::read_dir(folder).map_err(unreadable)?;
     let mut paths: Vec<PathBuf> = files.filter_map(|file| Some(file.ok()?.path())).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
     paths.sort();
-    paths.iter().map(|path| Entry::read(path)).collect()
+    paths.iter().map(|path| BenchEntry::read(path)).collect()
 }

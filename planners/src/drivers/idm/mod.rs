@@ -68,6 +68,20 @@ impl Idm {
     }
 }
 
+impl Idm {
+    /// The lane it is in, and the one that it drives in or changes to. On a lane that ends it keeps to its route, which leaves that lane in
+    /// the gap that the rules choose.
+    fn choose_lane(&self, minded: &Scene, others: &[Agent], lanes: &RoadLanes) -> (usize, LaneChoice) {
+        if is_on_ending_lane(&minded.ego) {
+            let lane = lanes.at(0.0);
+            return (lane, LaneChoice { lane, incentive_mps2: 0.0 });
+        }
+        let now = self.lane(minded, lanes);
+        let seen = LanesOfScene { scene: minded, others, lanes };
+        (now, mobil::choose(&Changing::of(minded), &self.settings, lanes, now, &seen))
+    }
+}
+
 impl DriverKind for Settings {
     fn kind(&self) -> &'static str {
         "idm"
@@ -153,15 +167,7 @@ impl Drive for Idm {
         };
         let minded = with_others(&whole, is_minded);
         let lanes = RoadLanes::of_road(&minded, self.settings.mobil.lane_width_m);
-        let (now, choice) = if is_on_ending_lane(&minded.ego) {
-            // Its route changes the lane, in the gap that the rules choose.
-            let lane = lanes.at(0.0);
-            (lane, LaneChoice { lane, incentive_mps2: 0.0 })
-        } else {
-            let now = self.lane(&minded, &lanes);
-            let seen_lanes = LanesOfScene { scene: &minded, others: &scene.others, lanes: &lanes };
-            (now, mobil::choose(&Changing::of(&minded), &self.settings, &lanes, now, &seen_lanes))
-        };
+        let (now, choice) = self.choose_lane(&minded, &scene.others, &lanes);
         self.lane_centre_m = Some(lanes.centre_m(choice.lane));
         let line_m = seen.ego.rules.stop_line_m;
         let from_to = [now, choice.lane];
