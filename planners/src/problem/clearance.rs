@@ -168,15 +168,14 @@ impl Scene {
     }
 
     /// Whether the safety ellipse around another vehicle concerns the planning vehicle; for a driver that knows comfort it does not once
-    /// their ways do not meet any more, nor where a line parts it from a vehicle that waits or is followed, nor around one behind while it
-    /// stays in its lane: that one keeps its distance.
+    /// their ways do not meet any more, nor where a line parts it from a vehicle that waits, nor around one behind while it stays in its
+    /// lane: that one keeps its distance.
     pub(crate) fn minds(&self, other: &Agent) -> bool {
         let ego = &self.ego;
         let is_beside = || ego.is_waited_for_by(other) && self.is_parted_by_lane_line(other);
         let stays = self.knowledge.is_of_motion() && ego.rules.stays_in_lane;
         let is_behind = || stays && ego.shares_lane_with(other) && ego.lead_of(other) < 0.0;
-        let is_followed = || ego.rules.follows.as_ref().is_some_and(|followed| followed.name == other.name);
-        ego.limits.comfort.is_none() || ego.may_meet(other) && !is_beside() && !is_behind() && !is_followed()
+        ego.limits.comfort.is_none() || ego.may_meet(other) && !is_beside() && !is_behind()
     }
 
     /// The safety ellipses around a prediction of another vehicle for a planner: longer by a time gap for one on the same road if the
