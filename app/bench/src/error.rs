@@ -22,7 +22,7 @@ pub enum BenchError {
         /// The start.
         id: String,
         /// The reason.
-        reason: RunError,
+        reason: Box<RunError>,
     },
     /// The reference driver does not reach the goal alone, so the start has no reference time.
     #[error("{id}: the reference driver does not reach the goal alone")]

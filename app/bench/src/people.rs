@@ -28,7 +28,8 @@ pub fn people_digest(registry: &Registry) -> Result<String, BenchError> {
     let one = |start: &Encounter| -> Result<String, BenchError> {
         let id = start.to_string();
         let scenario = loaded(registry, &id, &[])?;
-        let run = trace(&scenario, RUN_S, None).map_err(|reason| BenchError::Run { id: id.clone(), reason })?;
+        let run = trace(&scenario, RUN_S, None)
+            .map_err(|reason| BenchError::Run { id: id.clone(), reason: Box::new(reason) })?;
         Ok(format!("{id} {:x} {}\n", Sha256::digest(start.text()), run.digest))
     };
     let starts: Vec<Encounter> = Encounter::all(EncounterSplit::Test).filter(|start| is_calibration(*start)).collect();

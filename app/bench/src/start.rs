@@ -40,7 +40,7 @@ impl Start {
     pub fn new(registry: &Registry, encounter: Encounter) -> Result<Start, BenchError> {
         let id = encounter.to_string();
         let scenario = loaded(registry, &id, &[])?;
-        let unfinished = |reason| BenchError::Run { id: id.clone(), reason };
+        let unfinished = |reason| BenchError::Run { id: id.clone(), reason: Box::new(reason) };
         let mut alone = scenario.clone();
         alone.vehicles.retain(|vehicle| vehicle.name == EGO || vehicle.obstacle.is_some());
         let driven = trace(&alone, ALONE_S, None).map_err(unfinished)?;
@@ -69,7 +69,7 @@ impl Start {
         let mut wheel = planner.wheel(&scenario)?;
         let limit_s = self.alone_s + MOST_LOST_S;
         let driven = trace(&scenario, limit_s, wheel.as_mut());
-        let with = driven.map_err(|reason| BenchError::Run { id: self.id.clone(), reason })?;
+        let with = driven.map_err(|reason| BenchError::Run { id: self.id.clone(), reason: Box::new(reason) })?;
         let mut ego = with.ego.clone().unwrap_or_default();
         let score = StartScore::of_run(&ego, &with, &self.without, self.alone_s);
         if ego.completed_s.is_none() && ego.failure.is_none() {

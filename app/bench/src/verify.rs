@@ -49,7 +49,7 @@ fn refused<T>(reason: String) -> Result<T, BenchError> {
 /// What can be checked without a run.
 fn check_content(entry: &BenchEntry) -> Result<(), BenchError> {
     if entry.set != ENCOUNTER_VERSION || entry.people != PEOPLE.trim() {
-        let [theirs, ours] = [&entry.set, &entry.people].map(String::as_str).map(short).into();
+        let [theirs, ours] = [&entry.set, &entry.people].map(String::as_str).map(short);
         return refused(format!(
             "it is of {theirs} with people {ours}, and this program has {ENCOUNTER_VERSION} with people {}; scores of other \
              versions do not compare",
