@@ -42,6 +42,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("interplay run intersection/nice --set 'vehicle.ego.driver.passing_orders=", "a global search takes minutes"),
     ("interplay bench run --command", "needs Python; the mechanism is in `benchmark`"),
     ("interplay bench run --split", "takes an hour; the mechanism is in `benchmark`"),
+    ("interplay bench board board", "of runs that are not made here"),
     ("mdbook ", "another program"),
     ("tests/cluster/", "needs a scheduler"),
     ("interplay view ", "waits for a viewer: see `authoring`"),

@@ -151,7 +151,7 @@ def faults(row) -> list[str]:
     found = []
     if row.get("error"):
         return ["error"]
-    # On a road without junctions there is no last lane to arrive on.
+    # A road without junctions has no last lane to arrive on.
     if row["completed_s"] is None and "_bend-" not in row["scenario"]:
         found.append("not round")
     if (row.get("off_road_m") or 0.0) > OFF_ROAD_M:

@@ -124,9 +124,6 @@ pub struct Scenario {
     pub metrics: RegisteredMetrics,
 }
 
-/// The default number of days that are simulated.
-const ITERATIONS: usize = 10;
-
 impl Scenario {
     /// Index of the ego in [`Scenario::vehicles`]: the vehicle called `ego` if there is one, otherwise the first.
     pub fn ego_index(&self) -> usize {
@@ -207,7 +204,7 @@ impl Scenario {
 
     /// The number of simulated days of the building; 0 without a building.
     pub fn days(&self) -> usize {
-        if self.building.is_some() { self.iterations.unwrap_or(ITERATIONS) } else { 0 }
+        if self.building.is_some() { self.iterations.unwrap_or(10) } else { 0 }
     }
 
     /// The controller of the building; by default a PID controller in each zone.

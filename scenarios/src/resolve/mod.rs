@@ -34,7 +34,6 @@ use crate::model::building::plant::BuildingPlant;
 use crate::model::building::weather::WeatherSource;
 use crate::model::remark::{ScenarioRemark, ScenarioRemarks};
 use crate::model::scenario::{Scenario, Vehicle};
-use crate::model::traffic::flows::ScenarioFlows;
 use crate::resolve::check::{consistency, remarks};
 use crate::resolve::placement::{KnownRoads, Placed, Start, obstacles, place};
 use crate::roads::Road;
@@ -127,7 +126,7 @@ fn read(
     let PlacedVehicles { road, network, vehicles, moved } = placed.unwrap_or_default();
     let mut scenario = Scenario {
         vehicles,
-        flows: ScenarioFlows(file.flows),
+        flows: flows::stated(&file.flows),
         road,
         network,
         title: file.title,

@@ -9,7 +9,7 @@ const MIN_VEHICLES: usize = 4;
 /// Fewer vehicles than this that follow records are listed by name.
 const MIN_RECORDED: usize = 12;
 /// The common name of vehicles that follow records.
-const RECORDED: &str = "recorded";
+const RECORDS: &str = "records";
 
 /// Vehicles of one flow, or those that follow records.
 pub(super) struct Crowd<'a> {
@@ -68,8 +68,8 @@ pub(super) fn is_in(crowds: &[Crowd<'_>], vehicle: &VehicleReport) -> bool {
 
 /// The name of the crowd to which a vehicle may belong: a flow, or the recorded traffic around an ego.
 fn crowd_of(vehicle: &VehicleReport) -> Option<&str> {
-    let follows_record = vehicle.driver == RECORDED && !vehicle.is_ego && !vehicle.is_obstacle;
-    vehicle.flow.as_deref().or(follows_record.then_some(RECORDED))
+    let follows_record = vehicle.follows_record && !vehicle.is_ego && !vehicle.is_obstacle;
+    vehicle.flow.as_deref().or(follows_record.then_some(RECORDS))
 }
 
 /// The size from which vehicles like this one are a crowd.

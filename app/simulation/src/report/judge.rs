@@ -12,8 +12,6 @@ use crate::state::frame::Collision;
 
 /// Contacts that a failed expectation names.
 const MOST_CONTACTS: usize = 3;
-/// The kind of driver that follows a record.
-const RECORDED: &str = "recorded";
 
 /// Judges every expectation that the scenario states.
 pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
@@ -59,7 +57,7 @@ pub(super) fn judge(expect: &Expect, report: &Report) -> Vec<Expectation> {
 
 /// Judges whether vehicles touched; a failure says which and when, contacts between vehicles that follow records last.
 fn no_collision(wanted: bool, report: &Report) -> Expectation {
-    let is_recorded = |name: &String| report.vehicle(name).is_some_and(|vehicle| vehicle.driver == RECORDED);
+    let is_recorded = |name: &String| report.vehicle(name).is_some_and(|vehicle| vehicle.follows_record);
     let of_records = |contact: &&Collision| contact.between.iter().all(is_recorded);
     let (recorded, mut contacts): (Vec<&Collision>, Vec<&Collision>) = report.collisions.iter().partition(of_records);
     contacts.extend(recorded);

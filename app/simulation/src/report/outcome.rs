@@ -102,6 +102,9 @@ pub struct VehicleReport {
     /// The flow of which it came; `None` if the scenario states it by itself.
     #[serde(skip)]
     pub flow: Option<String>,
+    /// Whether it follows a record.
+    #[serde(skip)]
+    pub follows_record: bool,
     /// Whether it is the ego.
     #[serde(skip)]
     pub is_ego: bool,
@@ -197,6 +200,7 @@ impl VehicleReport {
         VehicleReport {
             name: vehicle.name.clone(),
             flow: scenario.flows.of(&vehicle.name).map(str::to_owned),
+            follows_record: vehicle.driver.record().is_some(),
             is_ego: index == scenario.ego_index(),
             driver: vehicle.driver.kind().to_owned(),
             is_obstacle: vehicle.obstacle.is_some(),

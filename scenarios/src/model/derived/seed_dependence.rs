@@ -17,7 +17,7 @@ impl Scenario {
         let jitter = self.start_jitter;
         let starts_vary = jitter.position_m > 0.0 || jitter.speed_mps > 0.0;
         let senses_errors = self.vehicles.len() > 1 && self.vehicles.iter().any(Vehicle::senses_errors);
-        let vehicles_vary = (starts_vary && !self.vehicles.is_empty()) || self.flows.depend_on_seed();
+        let vehicles_vary = (starts_vary && !self.vehicles.is_empty()) || self.flows.depend_on_seed;
         vehicles_vary || senses_errors || self.has_random_surroundings()
     }
 

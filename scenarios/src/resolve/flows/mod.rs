@@ -10,10 +10,11 @@ mod arrival;
 use serde_json::{Map, Value as Json, json};
 
 use self::arrival::Arrival;
-use crate::format::flow::FlowConfig;
+use crate::format::flow::{FlowConfig, Headways};
 use crate::format::json_schema::SchemaNode;
 use crate::format::read::merge::merge_tables;
 use crate::format::read::tree::{self, Table, TomlEntry, TomlNode, TomlValue};
+use crate::model::traffic::flows::ScenarioFlows;
 use crate::resolve::check::shape;
 use crate::text::error::{Fault, quoted};
 use crate::text::name;
@@ -189,6 +190,18 @@ fn vehicle(schema: Option<SchemaNode>, flow: &FlowConfig, node: &TomlNode, arriv
     let common = drawn(json!({ "leaves_at_end": true }));
     let table = layers.into_iter().flatten().fold(common, |under, over| merge_tables(schema, under, over));
     TomlNode { place: node.place.clone(), value: TomlValue::Table(table) }
+}
+
+/// What a scenario keeps of its flows.
+pub(super) fn stated(flows: &[FlowConfig]) -> ScenarioFlows {
+    let depends_on_seed = |flow: &FlowConfig| {
+        let is_irregular = flow.headways == Headways::Exponential || flow.speed_sd_mps > 0.0;
+        is_irregular || flow.from.len() > 1 || flow.to.len() > 1 || flow.mix.len() > 1
+    };
+    ScenarioFlows {
+        names: flows.iter().map(|flow| flow.name.clone()).collect(),
+        depend_on_seed: flows.iter().any(depends_on_seed),
+    }
 }
 
 #[cfg(test)]
