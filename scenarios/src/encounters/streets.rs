@@ -84,7 +84,7 @@ fn pedestrians(cast: &mut Cast, from: &str, in_s: f64) {
     let (mut at_s, count) = (in_s + draft.between(-4.5, -1.0), draft.count(2, 5));
     let walk_mps = draft.between(1.1, 1.5);
     for number in 0..count {
-        let along_m = PAVEMENT_M - walk_mps * at_s;
+        let along_m = (PAVEMENT_M - walk_mps * at_s).min(PAVEMENT_M - 0.1);
         if along_m < 0.5 {
             return;
         }
