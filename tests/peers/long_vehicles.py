@@ -192,7 +192,8 @@ def main() -> int:
     done = subprocess.run([options.binary, "sweep", plan, "--out", rows_folder, "--jobs", str(options.jobs)], stdout=subprocess.DEVNULL)
     if done.returncode not in (0, 1):
         return 2
-    tell([json.loads(line) for line in (rows_folder / "journal.jsonl").open()])
+    rows = [json.loads(line) for line in (rows_folder / "journal.jsonl").open()]
+    tell([row | ((row["result"] or {}).get("traffic") or {}) | {"planner": row["planner"]} for row in rows])
     return 2 if refused else 0
 
 
