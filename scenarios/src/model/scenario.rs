@@ -42,9 +42,6 @@ use crate::model::traffic::weights::{StartJitter, Weights};
 use crate::roads::{Branch, Road};
 use crate::text::name::EGO;
 
-/// The most vehicles that are not yet a crowd.
-pub(crate) const MOST_TOLD: usize = 40;
-
 /// A scenario that is ready to run: agents, their world, and the expectations of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
@@ -151,16 +148,6 @@ impl Scenario {
             iterations: None,
             ..self
         }
-    }
-
-    /// Whether no vehicle stands out, because the ego is only the first of a flow.
-    pub fn is_flow_alone(&self) -> bool {
-        self.ego().is_some_and(|ego| self.flows.of(&ego.name).is_some())
-    }
-
-    /// Whether recordings and pictures show only the vehicles near the ego, because there are too many.
-    pub fn is_crowd(&self) -> bool {
-        self.vehicles.len() > MOST_TOLD
     }
 
     /// The level of detail of a vehicle: for humans other than the ego; `None` for all others.

@@ -3,7 +3,8 @@
 use std::fmt;
 
 use super::plan_time::plan_time_s;
-use crate::model::scenario::{MOST_TOLD, Scenario, Vehicle};
+use crate::model::derived::crowd::MOST_TOLD;
+use crate::model::scenario::{Scenario, Vehicle};
 use crate::model::traffic::plant::Plant;
 
 /// Size of a recording of nothing: the blueprint, descriptions and the road \[bytes\].
