@@ -127,7 +127,7 @@ impl Exchange {
     fn indicators(&self, at: &Stepped) -> Result<Vec<f64>, String> {
         self.instance.place(at.time_s, &at.states)?;
         let mut values = vec![0.0; self.shape.indicators];
-        self.instance.read("fmi2GetEventIndicators", &mut values)?;
+        self.instance.demand("fmi2GetEventIndicators", &mut values)?;
         Ok(values)
     }
 
@@ -181,11 +181,11 @@ impl Exchange {
         self.next_event_s = event.next_s;
         if event.nominals {
             let mut nominals = vec![1.0; self.states.len()];
-            self.instance.read("fmi2GetNominalsOfContinuousStates", &mut nominals)?;
+            self.instance.demand("fmi2GetNominalsOfContinuousStates", &mut nominals)?;
             self.solver.set_nominals(nominals);
         }
         if event.states {
-            self.instance.read("fmi2GetContinuousStates", &mut self.states)?;
+            self.instance.demand("fmi2GetContinuousStates", &mut self.states)?;
         }
         self.is_above = self.above_after_event()?;
         Ok(())

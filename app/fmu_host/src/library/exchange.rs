@@ -3,10 +3,11 @@
 use std::ffi::c_int;
 use std::ptr;
 
-use super::{Component, FALSE, Instance, Status, TRUE, checked};
+use super::{Component, FALSE, Instance, Status, TRUE, checked, with_message};
 
-/// `fmi2Discard`: the values do not exist, and another step may be tried.
-const DISCARD: Status = 2;
+/// `fmi2Discard` and `fmi2Error`: the values do not exist, and a shorter step may be tried. By the standard only the first allows that;
+/// units of the OPTIMICA Compiler Toolkit, as those of BOPTEST, answer with the second where their inner equations have no solution.
+const NO_VALUES: [Status; 2] = [2, 3];
 
 /// `fmi2EventInfo`.
 #[repr(C)]
@@ -81,12 +82,20 @@ impl Instance {
         self.list("fmi2SetContinuousStates", states.as_ptr().cast_mut(), states.len()).map(|_| ())
     }
 
-    /// Reads a list of `count` numbers by a function such as `fmi2GetContinuousStates`; `false` if the unit discards them.
+    /// Reads a list of `count` numbers by a function such as `fmi2GetContinuousStates`; `false` if they do not exist.
     ///
     /// # Errors
     /// As [`Instance::initialize`].
     pub fn read(&self, name: &str, values: &mut [f64]) -> Result<bool, String> {
         self.list(name, values.as_mut_ptr(), values.len())
+    }
+
+    /// As [`Instance::read`], for values that must exist.
+    ///
+    /// # Errors
+    /// As [`Instance::initialize`], and where they do not exist.
+    pub fn demand(&self, name: &str, values: &mut [f64]) -> Result<(), String> {
+        if self.read(name, values)? { Ok(()) } else { Err(with_message(&format!("`{name}` gives no values"))) }
     }
 
     fn list(&self, name: &str, values: *mut f64, count: usize) -> Result<bool, String> {
@@ -96,7 +105,7 @@ impl Instance {
         }
         // SAFETY: the type is that of the standard, the instance is alive, and the list has the stated length.
         let status = unsafe { self.function::<List>(name)?(self.component, values, count) };
-        if status == DISCARD {
+        if NO_VALUES.contains(&status) {
             return Ok(false);
         }
         checked(name, status).map(|()| true)

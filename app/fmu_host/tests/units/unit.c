@@ -128,3 +128,20 @@ int F(SetReal)(void *c, const unsigned *references, size_t n, const double *valu
     }
     return 0;
 }
+
+/* Functions that a library must have, and this unit does not offer. */
+#define MISSING(name) \
+    int F(name)(void) { return 3; }
+MISSING(GetInteger)
+MISSING(GetBoolean)
+MISSING(GetString)
+MISSING(SetInteger)
+MISSING(SetBoolean)
+MISSING(SetString)
+MISSING(GetFMUstate)
+MISSING(SetFMUstate)
+MISSING(FreeFMUstate)
+MISSING(SerializedFMUstateSize)
+MISSING(SerializeFMUstate)
+MISSING(DeSerializeFMUstate)
+MISSING(GetDirectionalDerivative)
