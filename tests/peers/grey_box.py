@@ -11,7 +11,7 @@ heat is recorded as the mean of a row. A world other than `matched` differs from
 
 darkgreybox fits its model TiTe by Nelder and Mead from start values of a middling house, with the sun of the known aperture added to
 the heat, since TiTe has no sun: it is given more than our program. Its values have no intervals, so that every one counts as called
-known; one is absurd if it is off by more than a factor of two. Without darkgreybox it is skipped, which is said.
+known; one is absurd if it is off by more than a factor of two, or if its explicit steps overflow and there is none. Without darkgreybox it is skipped, which is said.
 """
 
 import argparse
@@ -130,7 +130,10 @@ def theirs(rows, aperture):
         "Rie": {"value": 1.0, "min": 1e-3, "max": 1e3}, "Rea": {"value": 5.0, "min": 1e-3, "max": 1e3},
     }
     began = time.time()
-    found = TiTe(params, rec_duration=STEP_S / 3600).fit(data, inside, method="nelder").result.params
+    try:
+        found = TiTe(params, rec_duration=STEP_S / 3600).fit(data, inside, method="nelder").result.params
+    except ValueError:  # its explicit steps of an hour have overflowed
+        return math.nan, math.nan, time.time() - began
     value = {name: found[name].value for name in ("Ci", "Ce", "Rie", "Rea")}
     return 1 / (value["Rie"] + value["Rea"]), 3600 * (value["Ci"] + value["Ce"]), time.time() - began
 

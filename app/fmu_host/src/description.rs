@@ -34,7 +34,8 @@ impl Shape {
 
     fn of(root: Node<'_, '_>, exchange: Node<'_, '_>) -> Result<Self, String> {
         let child = |name: &'static str| root.children().find(move |node| node.has_tag_name(name));
-        let derivatives = child("ModelStructure").and_then(|it| it.children().find(|it| it.has_tag_name("Derivatives")));
+        let derivatives =
+            child("ModelStructure").and_then(|it| it.children().find(|it| it.has_tag_name("Derivatives")));
         let states = derivatives.map_or(0, |it| it.children().filter(Node::is_element).count());
         let indicators = root.attribute("numberOfEventIndicators").unwrap_or("0");
         let indicators = indicators.parse().map_err(|_| "its `numberOfEventIndicators` is not a number")?;

@@ -290,12 +290,7 @@ mod tests {
     }
 
     /// The states at a time, and the number of steps.
-    fn solved(
-        f: impl FnMut(f64, &[f64], &mut [f64]),
-        start: &[f64],
-        end_s: f64,
-        tolerance: f64,
-    ) -> (Vec<f64>, usize) {
+    fn solved(f: impl FnMut(f64, &[f64], &mut [f64]), start: &[f64], end_s: f64, tolerance: f64) -> (Vec<f64>, usize) {
         let (mut system, mut solver) = (Function(f), Esdirk::new(tolerance, vec![1.0; start.len()]));
         let (mut at, mut steps) = (Stepped { time_s: 0.0, states: start.to_vec() }, 0);
         while at.time_s < end_s {

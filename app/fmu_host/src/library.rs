@@ -132,9 +132,8 @@ impl Instance {
     pub fn initialize(&self, start_s: f64) -> Result<(), String> {
         type SetUp = unsafe extern "C" fn(Component, c_int, f64, f64, c_int, f64) -> Status;
         // SAFETY: the type is that of the standard, and the instance is alive.
-        let status = unsafe {
-            self.function::<SetUp>("fmi2SetupExperiment")?(self.component, FALSE, 0.0, start_s, FALSE, 0.0)
-        };
+        let status =
+            unsafe { self.function::<SetUp>("fmi2SetupExperiment")?(self.component, FALSE, 0.0, start_s, FALSE, 0.0) };
         checked("fmi2SetupExperiment", status)?;
         self.call("fmi2EnterInitializationMode")?;
         self.call("fmi2ExitInitializationMode")
@@ -257,7 +256,8 @@ impl Drop for Instance {
 /// `F` is the type that the standard gives the function of this name.
 unsafe fn function<'a, F>(library: &'a Loaded, prefix: &str, name: &str) -> Result<Symbol<'a, F>, String> {
     // SAFETY: the caller guarantees it.
-    unsafe { library.get(format!("{prefix}{name}").as_bytes()) }.map_err(|_| format!("its library has no function `{name}`"))
+    unsafe { library.get(format!("{prefix}{name}").as_bytes()) }
+        .map_err(|_| format!("its library has no function `{name}`"))
 }
 
 fn checked(name: &str, status: Status) -> Result<(), String> {

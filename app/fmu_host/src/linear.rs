@@ -29,7 +29,10 @@ impl Factors {
                 let factor = other[column] / pivot;
                 other[column] = factor;
                 if factor != 0.0 {
-                    other[column + 1..].iter_mut().zip(&row[column + 1..]).for_each(|(it, above)| *it -= factor * above);
+                    other[column + 1..]
+                        .iter_mut()
+                        .zip(&row[column + 1..])
+                        .for_each(|(it, above)| *it -= factor * above);
                 }
             }
         }

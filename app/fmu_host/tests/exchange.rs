@@ -27,7 +27,8 @@ fn main() {
     if let [library, guid, resources, exchange] = &env::args().skip(1).collect::<Vec<_>>()[..] {
         return serve(Path::new(library), guid, resources, Some(exchange)).expect("served");
     }
-    if !cfg!(all(target_os = "linux", target_arch = "x86_64")) || Command::new("cc").arg("--version").output().is_err() {
+    if !cfg!(all(target_os = "linux", target_arch = "x86_64")) || Command::new("cc").arg("--version").output().is_err()
+    {
         return println!("skipped: there is no C compiler `cc`, or this is not Linux on x86-64");
     }
     for prefixed in [false, true] {
@@ -184,7 +185,8 @@ fn crashes_and_hangs_are_errors(built: &Built) {
         };
         assert!(is_right, "{error}");
     }
-    let files = [("modelDescription.xml", include_str!("units/unit.xml").as_bytes()), ("binaries/linux64/unit.so", b"x")];
+    let files =
+        [("modelDescription.xml", include_str!("units/unit.xml").as_bytes()), ("binaries/linux64/unit.so", b"x")];
     let folder = tempfile::tempdir().expect("a folder");
     let unit = units::unit(folder.path(), &files).expect("a unit");
     let program = HostProgram { program: env::current_exe().expect("a program").into(), arguments: Vec::new() };
