@@ -131,7 +131,7 @@ const TEMPERATURE_UNITS: [&str; 2] = ["K", "degC"];
 /// units are accepted.
 ///
 /// # Errors
-/// [`BoptestError::Case`].
+/// [`BoptestError::Invalid`].
 pub fn check_temperature(measurements: &Signals, name: &str) -> Result<(), BoptestError> {
     let Some(unit) = measurements.get(name).and_then(|known| known.get(UNIT)) else { return Ok(()) };
     let has = match unit.as_str() {
@@ -140,7 +140,7 @@ pub fn check_temperature(measurements: &Signals, name: &str) -> Result<(), Bopte
         None => "has no unit".to_owned(),
     };
     let reason = format!("`{name}` {has}; the temperature of a zone must be in `K` or `degC`");
-    Err(BoptestError::Case { reason })
+    Err(BoptestError::Invalid { request: "GET /measurements".to_owned(), reason })
 }
 
 /// 0 °C \[K\].

@@ -338,4 +338,18 @@ mod tests {
         }
         assert_eq!(in_pulses(&input(Some(0.8)), 0.9, &mut 0.0), 0.9);
     }
+    #[test]
+    fn a_zone_needs_a_unit_of_temperature_and_errors_name_the_unit() {
+        let listed = json!({
+            "a": { "Unit": "K" }, "b": { "Unit": "degC" }, "c": {}, "power": { "Unit": "W" }, "plain": { "Unit": null },
+        });
+        let listed = listed.as_object().expect("an object");
+        for name in ["a", "b", "c"] {
+            check_temperature(listed, name).expect(name);
+        }
+        for (name, said) in [("power", "has the unit `W`"), ("plain", "has no unit")] {
+            let error = check_temperature(listed, name).expect_err(name).of_unit().to_string();
+            assert!(error.contains(said) && error.contains("FMU") && !error.contains("BOPTEST"), "{error}");
+        }
+    }
 }

@@ -1,21 +1,16 @@
 #!/usr/bin/env python3
-"""Identifies simulated houses whose truth is known by `interplay identify`, and by darkgreybox (GPL, a referee only).
+"""Identifies simulated houses whose truth is known by `interplay identify`, and counts what holds.
 
-    pip install lmfit pandas joblib && pip install --no-deps darkgreybox==0.3.0
-    python tests/peers/grey_box.py --houses 30 --held --referee --binary target/release/interplay
-    python tests/peers/grey_box.py --houses 10 --world clock
+    python tests/peers/houses.py --houses 30 --held
+    python tests/peers/houses.py --houses 10 --world clock
 
 Houses have an air and a wall, a thermostat that switches within rows of an hour, weather of a random walk and two weeks of telemetry;
-heat is recorded as the mean of a row. A world other than `matched` differs from what the models take for granted (`WORLDS`). With
-`--held` each house is identified again with the mean heat of each row held in it.
-
-darkgreybox fits its model TiTe by Nelder and Mead from start values of a middling house, with the sun of the known aperture added to
-the heat, since TiTe has no sun: it is given more than our program. Its values have no intervals, so that every one counts as called
-known; one is absurd if it is off by more than a factor of two, or if its explicit steps overflow and there is none. Without darkgreybox it is skipped, which is said.
+heat is recorded as the mean of a row. The simulation shares no code with `building/experiments/identify_coverage`. A world other than
+`matched` differs from what the models take for granted (`WORLDS`). With `--held` each house is identified again with the mean heat of
+each row held in it.
 """
 
 import argparse
-import importlib.util
 import json
 import math
 import pathlib
@@ -28,7 +23,6 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 STEP_S = 3600
 DAYS = 14
-ABSURD = 2.0
 #: An identified value is off beyond this share.
 OFF = 0.25
 #: What differs, and the cause that should be named first.
@@ -90,8 +84,10 @@ def house(seed, world="matched", held=None):
 def recorded(rows, world, seed):
     """Rows as the world records them."""
     columns = [list(column) for column in zip(*rows)]
+
     def shifted(column, by):
         return [column[min(max(row - by, 0), len(column) - 1)] for row in range(len(column))]
+
     if world == "clock":
         columns[1:3] = [shifted(column, 1 if seed % 2 else -1) for column in columns[1:3]]
     if world == "late":
@@ -116,41 +112,13 @@ def ours(binary, rows):
     return {it["name"]: it for it in report["zones"][0]["physical"]}, causes, time.time() - began
 
 
-def theirs(rows, aperture):
-    """Conductance and capacity of TiTe, and seconds."""
-    import numpy
-    from darkgreybox.models import TiTe
-    table = numpy.array(rows)
-    inside = table[:, 4]
-    data = {"Ta": table[:, 1], "Ph": table[:, 3] + aperture * table[:, 2]}
-    params = {
-        "Ti0": {"value": inside[0], "vary": False}, "Te0": {"value": inside[0] - 2, "vary": True, "min": 0, "max": 25},
-        # Capacities in kWh/K and resistances in K/kW, within generous limits.
-        "Ci": {"value": 1.0, "min": 1e-3, "max": 1e3}, "Ce": {"value": 5.0, "min": 1e-3, "max": 1e4},
-        "Rie": {"value": 1.0, "min": 1e-3, "max": 1e3}, "Rea": {"value": 5.0, "min": 1e-3, "max": 1e3},
-    }
-    began = time.time()
-    try:
-        found = TiTe(params, rec_duration=STEP_S / 3600).fit(data, inside, method="nelder").result.params
-    except ValueError:  # its explicit steps of an hour have overflowed
-        return math.nan, math.nan, time.time() - began
-    value = {name: found[name].value for name in ("Ci", "Ce", "Rie", "Rea")}
-    return 1 / (value["Rie"] + value["Rea"]), 3600 * (value["Ci"] + value["Ce"]), time.time() - began
-
-
-def is_absurd(value, truth):
-    """Whether a value is not finite, or off by more than a factor of two."""
-    return not (value > 0 and max(value / truth, truth / value) <= ABSURD)
-
-
 class Sums:
     """Counts over the houses."""
 
     def __init__(self):
         self.bounded, self.held, self.known, self.off, self.known_ua, self.ua = 0, 0, 0, 0, 0, 0
         self.houses, self.warned, self.first, self.anywhere = 0, 0, 0, 0
-        self.widths, self.seconds, self.their_seconds = {}, [], []
-        self.their_absurd, self.their_values, self.absurd = 0, 0, 0
+        self.widths, self.seconds = {}, []
 
     def add(self, physical, truths):
         """Counts what was found of one house."""
@@ -167,7 +135,6 @@ class Sums:
             self.known_ua += is_known and name.startswith("conductance")
             self.known += is_known
             self.off += is_known and not abs((it["value"] or math.inf) / truth - 1) <= OFF
-            self.absurd += is_known and is_absurd(it["value"] or math.nan, truth)
 
     def add_width(self, physical, held):
         """Widths of intervals over those with the heat held."""
@@ -181,11 +148,10 @@ class Sums:
         """One line of everything."""
         widths = ", ".join(f"{name} {statistics.median(self.widths[name]):.2f} ({len(self.widths[name])})"
                            for name in ("heat capacity", "conductance to outdoor", "aperture to the sun") if name in self.widths)
-        theirs_s = f"{statistics.median(self.their_seconds):.1f}" if self.their_seconds else "–"
         return (f"{self.houses} houses: {self.held} of {self.bounded} intervals hold the truth; warned {self.warned}; conductances identified "
-                f"{self.known_ua} of {self.ua}; identified and off {self.off} of {self.known}, absurd {self.absurd}; right cause first "
+                f"{self.known_ua} of {self.ua}; identified and off {self.off} of {self.known}; right cause first "
                 f"{self.first}, anywhere {self.anywhere}; width over that with heat held: {widths or '–'}; {statistics.median(self.seconds):.1f} s "
-                f"a house; darkgreybox absurd {self.their_absurd} of {self.their_values}, {theirs_s} s a fit")
+                f"a house")
 
 
 def main():
@@ -195,12 +161,8 @@ def main():
     parser.add_argument("--first", type=int, default=1000, help="seed of the first house")
     parser.add_argument("--world", choices=WORLDS, default="matched")
     parser.add_argument("--held", action="store_true", help="also with the heat of each row held")
-    parser.add_argument("--referee", action="store_true", help="also by darkgreybox")
     parser.add_argument("--binary", default=str(ROOT / "target" / "release" / "interplay"))
     given = parser.parse_args()
-    if given.referee and importlib.util.find_spec("darkgreybox") is None:
-        given.referee = False
-        print("skipped: darkgreybox is not installed")
     sums = Sums()
     for seed in range(given.first, given.first + given.houses):
         (ua, capacity, aperture), rows = house(seed, given.world)
@@ -219,11 +181,6 @@ def main():
             held, _, _ = ours(given.binary, house(seed, given.world, [row[3] for row in rows])[1])
             if not isinstance(held, str):
                 sums.add_width(physical, held)
-        if given.referee:
-            *their, took = theirs(rows, aperture)
-            sums.their_seconds.append(took)
-            sums.their_values += 2
-            sums.their_absurd += is_absurd(their[0], ua) + is_absurd(their[1], capacity)
         found = ", ".join(f"{name} {physical[name]['value'] or 0:.4g} for {truth:.4g}" for name, truth in truths.items() if name in physical)
         print(f"{given.world} {seed}: {found}; {causes}", flush=True)
         print(f"  {sums.text()}", flush=True)
