@@ -2,7 +2,7 @@
 
 use crate::description::Shape;
 use crate::esdirk::{Equations, Esdirk, Stepped};
-use crate::library::{Event, Instance};
+use crate::library::{EventOutcome, Instance};
 
 /// An event of state is located to this share of the step in which it lies, and of the time.
 const LOCATED: f64 = 1e-10;
@@ -14,7 +14,7 @@ const MOMENT: f64 = 1e-12;
 /// Steps that are repeated to end at an event.
 const MAX_REPEATS: usize = 20;
 
-pub struct Exchange {
+pub struct ModelExchange {
     instance: Instance,
     shape: Shape,
     solver: Esdirk,
@@ -33,7 +33,7 @@ impl Equations for Instance {
     }
 }
 
-impl Exchange {
+impl ModelExchange {
     pub fn new(instance: Instance, shape: Shape) -> Self {
         let solver = Esdirk::new(shape.tolerance, vec![1.0; shape.states]);
         Self {
@@ -57,7 +57,7 @@ impl Exchange {
         (self.time_s, self.is_initialized) = (start_s, true);
         self.solver = Esdirk::new(self.shape.tolerance, vec![1.0; self.shape.states]);
         let event = self.instance.update()?;
-        self.follow(Event { states: true, nominals: true, ..event })
+        self.follow(EventOutcome { states: true, nominals: true, ..event })
     }
 
     pub fn reset(&mut self) -> Result<(), String> {
@@ -177,7 +177,7 @@ impl Exchange {
     }
 
     /// Reads what an event has changed.
-    fn follow(&mut self, event: Event) -> Result<(), String> {
+    fn follow(&mut self, event: EventOutcome) -> Result<(), String> {
         self.next_event_s = event.next_s;
         if event.nominals {
             let mut nominals = vec![1.0; self.states.len()];

@@ -12,7 +12,7 @@ use std::sync::Mutex;
 
 use libloading::{Library as Loaded, Symbol};
 
-pub use exchange::Event;
+pub use exchange::EventOutcome;
 
 type Component = *mut c_void;
 type Status = c_int;

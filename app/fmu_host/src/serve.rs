@@ -4,7 +4,7 @@ use std::io::{self, BufRead, Write};
 use std::path::Path;
 
 use crate::description::Shape;
-use crate::exchange::Exchange;
+use crate::exchange::ModelExchange;
 use crate::library::{Instance, Interface};
 use crate::protocol::{HostAnswer, Request, Values};
 use crate::standard_output;
@@ -47,7 +47,7 @@ fn answer(output: &mut impl Write, answer: &HostAnswer) -> io::Result<()> {
 /// A unit of either kind.
 enum Running {
     CoSimulation(Instance),
-    Exchange(Box<Exchange>),
+    Exchange(Box<ModelExchange>),
 }
 
 impl Running {
@@ -57,7 +57,7 @@ impl Running {
         };
         let shape: Shape = shape.parse()?;
         let instance = Instance::new(library, guid, resources, Interface::ModelExchange)?;
-        Ok(Self::Exchange(Box::new(Exchange::new(instance, shape))))
+        Ok(Self::Exchange(Box::new(ModelExchange::new(instance, shape))))
     }
 
     fn instance(&self) -> &Instance {

@@ -23,7 +23,7 @@ struct EventInfo {
 
 /// What an event has changed.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Event {
+pub struct EventOutcome {
     pub nominals: bool,
     pub states: bool,
     /// Time of the next event in time \[s\].
@@ -35,7 +35,7 @@ impl Instance {
     ///
     /// # Errors
     /// As [`Instance::update`].
-    pub fn event(&self, set: impl FnOnce(&Self) -> Result<(), String>) -> Result<Event, String> {
+    pub fn event(&self, set: impl FnOnce(&Self) -> Result<(), String>) -> Result<EventOutcome, String> {
         self.call("fmi2EnterEventMode")?;
         set(self)?;
         self.update()
@@ -45,10 +45,10 @@ impl Instance {
     ///
     /// # Errors
     /// As [`Instance::initialize`]; also if the unit ends the simulation, or its events have no end.
-    pub fn update(&self) -> Result<Event, String> {
+    pub fn update(&self) -> Result<EventOutcome, String> {
         type Update = unsafe extern "C" fn(Component, *mut EventInfo) -> Status;
         const MAX_ITERATIONS: usize = 1000;
-        let mut event = Event::default();
+        let mut event = EventOutcome::default();
         for _ in 0..MAX_ITERATIONS {
             let mut info = EventInfo::default();
             // SAFETY: the type is that of the standard, the instance is alive, and the structure lives as long as the call.
