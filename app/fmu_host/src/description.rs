@@ -1,5 +1,8 @@
 //! The description of a unit: `modelDescription.xml` of FMI 2.0.
 
+use std::fmt::{self, Display, Formatter};
+use std::str::FromStr;
+
 use roxmltree::{Document, Node};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -8,7 +11,68 @@ pub struct Description {
     pub guid: String,
     /// The name of its library, without the extension.
     pub library: String,
+    /// Its equations, if it is made for model exchange and not for co-simulation.
+    pub exchange: Option<Shape>,
     pub variables: Vec<UnitVariable>,
+}
+
+/// The size of a unit for model exchange, and how exactly it is integrated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// Number of continuous states.
+    pub states: usize,
+    /// Number of event indicators.
+    pub indicators: usize,
+    /// Whether the unit is told of each completed step.
+    pub needs_completed_steps: bool,
+    /// Relative tolerance: that of the unit's default experiment, or 1e-6.
+    pub tolerance: f64,
+}
+
+impl Shape {
+    const TOLERANCE: f64 = 1e-6;
+
+    fn of(root: Node<'_, '_>, exchange: Node<'_, '_>) -> Result<Self, String> {
+        let child = |name: &'static str| root.children().find(move |node| node.has_tag_name(name));
+        let derivatives =
+            child("ModelStructure").and_then(|it| it.children().find(|it| it.has_tag_name("Derivatives")));
+        let states = derivatives.map_or(0, |it| it.children().filter(Node::is_element).count());
+        let indicators = root.attribute("numberOfEventIndicators").unwrap_or("0");
+        let indicators = indicators.parse().map_err(|_| "its `numberOfEventIndicators` is not a number")?;
+        let tolerance = child("DefaultExperiment").and_then(|it| it.attribute("tolerance")?.parse().ok());
+        Ok(Self {
+            states,
+            indicators,
+            needs_completed_steps: exchange.attribute("completedIntegratorStepNotNeeded") != Some("true"),
+            tolerance: tolerance.filter(|tolerance| *tolerance > 0.0 && *tolerance < 1.0).unwrap_or(Self::TOLERANCE),
+        })
+    }
+}
+
+impl Display for Shape {
+    /// As the process that runs the unit reads it.
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        let Self { states, indicators, needs_completed_steps, tolerance } = self;
+        write!(formatter, "{states},{indicators},{needs_completed_steps},{tolerance:e}")
+    }
+}
+
+impl FromStr for Shape {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parts: Vec<&str> = text.split(',').collect();
+        let read = || {
+            let &[states, indicators, completed, tolerance] = &parts[..] else { return None };
+            Some(Self {
+                states: states.parse().ok()?,
+                indicators: indicators.parse().ok()?,
+                needs_completed_steps: completed.parse().ok()?,
+                tolerance: tolerance.parse().ok()?,
+            })
+        };
+        read().ok_or_else(|| format!("`{text}` is not states, indicators, completed steps and tolerance"))
+    }
 }
 
 /// An input or an output of a unit.
@@ -51,23 +115,37 @@ impl Description {
             return Err(format!("it is of FMI version {version}; wanted is 2.0"));
         }
         let guid = root.attribute("guid").ok_or("its description has no `guid`")?;
-        let co_simulation = root.children().find(|node| node.has_tag_name("CoSimulation"));
-        let co_simulation = co_simulation.ok_or("it is not made for co-simulation")?;
-        if co_simulation.attribute("needsExecutionTool") == Some("true") {
+        let kind = |name: &'static str| root.children().find(move |node| node.has_tag_name(name));
+        let (simulation, exchange) = (kind("CoSimulation"), kind("ModelExchange"));
+        let node = simulation.or(exchange).ok_or("it is made neither for co-simulation nor for model exchange")?;
+        let exchange = if simulation.is_none() { Some(Shape::of(root, node)?) } else { None };
+        if node.attribute("needsExecutionTool") == Some("true") {
             return Err("it needs the tool that exported it".to_owned());
         }
-        let library = co_simulation.attribute("modelIdentifier").ok_or("its description has no `modelIdentifier`")?;
+        let library = node.attribute("modelIdentifier").ok_or("its description has no `modelIdentifier`")?;
         let word = |character: char| character.is_ascii_alphanumeric() || "_-".contains(character);
         if library.is_empty() || !library.chars().all(word) {
             return Err(format!("`{library}` is not a valid name of a library"));
         }
         let variables = root.children().find(|node| node.has_tag_name("ModelVariables"));
-        let variables = variables.into_iter().flat_map(|list| list.children()).filter_map(variable).collect();
-        Ok(Self { guid: guid.to_owned(), library: library.to_owned(), variables })
+        let types = kind("TypeDefinitions");
+        let variables = variables.into_iter().flat_map(|list| list.children());
+        let variables = variables.filter_map(|node| variable(node, types)).collect();
+        Ok(Self { guid: guid.to_owned(), library: library.to_owned(), exchange, variables })
     }
 }
 
-fn variable(node: Node<'_, '_>) -> Option<UnitVariable> {
+/// The unit of a variable: its own, or that of its declared type.
+fn unit(value: Node<'_, '_>, types: Option<Node<'_, '_>>) -> Option<String> {
+    let own = value.attribute("unit").map(str::to_owned);
+    own.or_else(|| {
+        let declared = value.attribute("declaredType")?;
+        let declared = types?.children().find(|node| node.attribute("name") == Some(declared))?;
+        declared.children().find(Node::is_element)?.attribute("unit").map(str::to_owned)
+    })
+}
+
+fn variable(node: Node<'_, '_>, types: Option<Node<'_, '_>>) -> Option<UnitVariable> {
     let causality = match node.attribute("causality")? {
         "input" => Causality::Input,
         "output" => Causality::Output,
@@ -84,7 +162,7 @@ fn variable(node: Node<'_, '_>) -> Option<UnitVariable> {
         reference: node.attribute("valueReference")?.parse().ok()?,
         causality,
         kind,
-        unit: value.attribute("unit").map(str::to_owned),
+        unit: unit(value, types),
     })
 }
 
@@ -107,11 +185,26 @@ mod tests {
     }
 
     #[test]
+    fn model_exchange_has_the_size_of_its_equations_and_units_of_declared_types() {
+        let text = r#"<fmiModelDescription fmiVersion="2.0" guid="{1}" numberOfEventIndicators="3">
+            <ModelExchange modelIdentifier="case" completedIntegratorStepNotNeeded="true"/>
+            <TypeDefinitions><SimpleType name="T"><Real unit="K"/></SimpleType></TypeDefinitions><DefaultExperiment tolerance="1e-9"/>
+            <ModelVariables><ScalarVariable name="y" valueReference="1" causality="output"><Real declaredType="T"/></ScalarVariable>
+            </ModelVariables><ModelStructure><Derivatives><Unknown index="1"/><Unknown index="2"/></Derivatives></ModelStructure>
+            </fmiModelDescription>"#;
+        let found = Description::parse(text).expect("a description");
+        let shape = Shape { states: 2, indicators: 3, needs_completed_steps: false, tolerance: 1e-9 };
+        assert_eq!((found.exchange, found.variables[0].unit.as_deref()), (Some(shape), Some("K")));
+        assert_eq!(shape.to_string().parse(), Ok(shape));
+        assert!("1,2".parse::<Shape>().is_err());
+    }
+
+    #[test]
     fn units_of_other_versions_and_kinds_are_refused_with_the_reason() {
         for (text, said) in [
             ("nothing", "is not XML"),
             (r#"<a fmiVersion="3.0"/>"#, "version 3.0"),
-            (r#"<a fmiVersion="2.0" guid="1"><ModelExchange modelIdentifier="x"/></a>"#, "co-simulation"),
+            (r#"<a fmiVersion="2.0" guid="1"/>"#, "neither for co-simulation nor for model exchange"),
             (r#"<a fmiVersion="2.0" guid="1"><CoSimulation modelIdentifier="../x"/></a>"#, "valid name of a library"),
         ] {
             let error = Description::parse(text).expect_err(text);

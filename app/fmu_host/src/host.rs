@@ -17,8 +17,8 @@ const ENDING: Duration = Duration::from_secs(2);
 const ENDING_POLL: Duration = Duration::from_millis(5);
 const PROGRAM: &str = "interplay";
 
-/// The program that is started for a unit. Its last arguments are the library, the identity and the folder of resources, with which it
-/// calls [`serve`](crate::serve).
+/// The program that is started for a unit. Its last arguments are the library, the identity, the folder of resources, and the
+/// [`Shape`](crate::Shape) of a unit for model exchange, with which it calls [`serve`](crate::serve).
 #[derive(Clone, Debug)]
 pub struct HostProgram {
     pub program: OsString,
@@ -55,6 +55,7 @@ impl Host {
             .arg(unit.library())
             .arg(&unit.description().guid)
             .arg(format!("file://{}", unit.resources().display()))
+            .args(unit.description().exchange.map(|shape| shape.to_string()))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())

@@ -3,6 +3,8 @@
 //! Declarations follow `fmi2Functions.h` of FMI 2.0.4. Booleans are `int`. The status of a call that worked is 0 (ok) or 1 (warning).
 #![allow(unsafe_code, reason = "the functions of a unit are C")]
 
+mod exchange;
+
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::Path;
 use std::ptr;
@@ -10,12 +12,20 @@ use std::sync::Mutex;
 
 use libloading::{Library as Loaded, Symbol};
 
+pub use exchange::EventOutcome;
+
 type Component = *mut c_void;
 type Status = c_int;
 type Logger = unsafe extern "C" fn(*mut c_void, *const c_char, Status, *const c_char, *const c_char, *const c_char);
 
-/// `fmi2CoSimulation`.
-const CO_SIMULATION: c_int = 1;
+/// Which interface of a unit is used: `fmi2Type`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(i32)]
+pub enum Interface {
+    ModelExchange = 0,
+    CoSimulation = 1,
+}
+
 /// The worst status with which a call still worked: `fmi2Warning`.
 const WARNING: Status = 1;
 const TRUE: c_int = 1;
@@ -65,6 +75,8 @@ unsafe extern "C" fn log(
 /// An instance of a unit in its library.
 pub struct Instance {
     library: Loaded,
+    /// What stands before the names of the functions: nothing, or the name of the model.
+    prefix: String,
     component: Component,
     /// The unit keeps pointers to them.
     _callbacks: Box<Callbacks>,
@@ -75,7 +87,7 @@ impl Instance {
     ///
     /// # Errors
     /// The error of the loader or the unit.
-    pub fn new(path: &Path, guid: &str, resources: &str) -> Result<Self, String> {
+    pub fn new(path: &Path, guid: &str, resources: &str, interface: Interface) -> Result<Self, String> {
         // SAFETY: loading runs the initialisers of the library, as a user who names an FMU intends; this process does nothing else.
         let library = unsafe { Loaded::new(path) }.map_err(|error| format!("its library cannot be loaded: {error}"))?;
         let callbacks = Box::new(Callbacks {
@@ -96,17 +108,21 @@ impl Instance {
             c_int,
             c_int,
         ) -> Component;
+        let plain = || path.file_stem().map(|stem| format!("{}_", stem.to_string_lossy())).unwrap_or_default();
+        // SAFETY: the function is not called.
+        let is_plain = unsafe { function::<Instantiate>(&library, "", "fmi2Instantiate") }.is_ok();
+        let prefix = if is_plain { String::new() } else { plain() };
         // SAFETY: the type is that of the standard.
-        let instantiate: Symbol<'_, Instantiate> = unsafe { function(&library, "fmi2Instantiate")? };
+        let instantiate: Symbol<'_, Instantiate> = unsafe { function(&library, &prefix, "fmi2Instantiate")? };
         // SAFETY: all pointers live as long as the call, and the callbacks as long as the instance.
         let component = unsafe {
             let (name, guid) = (name.as_ptr(), guid.as_ptr());
-            instantiate(name, CO_SIMULATION, guid, resources.as_ptr(), &raw const *callbacks, FALSE, FALSE)
+            instantiate(name, interface as c_int, guid, resources.as_ptr(), &raw const *callbacks, FALSE, FALSE)
         };
         if component.is_null() {
             return Err(with_message("it makes no instance"));
         }
-        Ok(Self { library, component, _callbacks: callbacks })
+        Ok(Self { library, prefix, component, _callbacks: callbacks })
     }
 
     /// Sets up the experiment from `start_s` on, and initialises the unit.
@@ -116,9 +132,8 @@ impl Instance {
     pub fn initialize(&self, start_s: f64) -> Result<(), String> {
         type SetUp = unsafe extern "C" fn(Component, c_int, f64, f64, c_int, f64) -> Status;
         // SAFETY: the type is that of the standard, and the instance is alive.
-        let status = unsafe {
-            function::<SetUp>(&self.library, "fmi2SetupExperiment")?(self.component, FALSE, 0.0, start_s, FALSE, 0.0)
-        };
+        let status =
+            unsafe { self.function::<SetUp>("fmi2SetupExperiment")?(self.component, FALSE, 0.0, start_s, FALSE, 0.0) };
         checked("fmi2SetupExperiment", status)?;
         self.call("fmi2EnterInitializationMode")?;
         self.call("fmi2ExitInitializationMode")
@@ -173,7 +188,7 @@ impl Instance {
     pub fn step(&self, from_s: f64, step_s: f64) -> Result<(), String> {
         type DoStep = unsafe extern "C" fn(Component, f64, f64, c_int) -> Status;
         // SAFETY: the type is that of the standard, and the instance is alive.
-        let status = unsafe { function::<DoStep>(&self.library, "fmi2DoStep")?(self.component, from_s, step_s, TRUE) };
+        let status = unsafe { self.function::<DoStep>("fmi2DoStep")?(self.component, from_s, step_s, TRUE) };
         checked("fmi2DoStep", status)
     }
 
@@ -193,11 +208,20 @@ impl Instance {
         self.call("fmi2Terminate")
     }
 
+    /// Looks up a function of the instance's library.
+    ///
+    /// # Safety
+    /// `F` is the type that the standard gives the function of this name.
+    unsafe fn function<F>(&self, name: &str) -> Result<Symbol<'_, F>, String> {
+        // SAFETY: the caller guarantees it.
+        unsafe { function(&self.library, &self.prefix, name) }
+    }
+
     /// Calls a function whose only argument is the instance.
     fn call(&self, name: &str) -> Result<(), String> {
         type Plain = unsafe extern "C" fn(Component) -> Status;
         // SAFETY: the type is that of the standard, and the instance is alive.
-        checked(name, unsafe { function::<Plain>(&self.library, name)?(self.component) })
+        checked(name, unsafe { self.function::<Plain>(name)?(self.component) })
     }
 
     /// Calls a function that reads or writes a list of values, one for each reference.
@@ -209,7 +233,7 @@ impl Instance {
         // SAFETY: the type is that of the standard, the instance is alive, and both lists have the stated length; those that are set
         // are only read.
         let status = unsafe {
-            function::<Transfer<T>>(&self.library, name)?(self.component, references.as_ptr(), references.len(), values)
+            self.function::<Transfer<T>>(name)?(self.component, references.as_ptr(), references.len(), values)
         };
         checked(name, status)
     }
@@ -219,7 +243,7 @@ impl Drop for Instance {
     fn drop(&mut self) {
         type Free = unsafe extern "C" fn(Component);
         // SAFETY: the type is that of the standard, and the instance is not used after this call.
-        if let Ok(free) = unsafe { function::<Free>(&self.library, "fmi2FreeInstance") } {
+        if let Ok(free) = unsafe { self.function::<Free>("fmi2FreeInstance") } {
             // SAFETY: as above.
             unsafe { free(self.component) };
         }
@@ -230,9 +254,10 @@ impl Drop for Instance {
 ///
 /// # Safety
 /// `F` is the type that the standard gives the function of this name.
-unsafe fn function<'a, F>(library: &'a Loaded, name: &str) -> Result<Symbol<'a, F>, String> {
+unsafe fn function<'a, F>(library: &'a Loaded, prefix: &str, name: &str) -> Result<Symbol<'a, F>, String> {
     // SAFETY: the caller guarantees it.
-    unsafe { library.get(name.as_bytes()) }.map_err(|_| format!("its library has no function `{name}`"))
+    unsafe { library.get(format!("{prefix}{name}").as_bytes()) }
+        .map_err(|_| format!("its library has no function `{name}`"))
 }
 
 fn checked(name: &str, status: Status) -> Result<(), String> {

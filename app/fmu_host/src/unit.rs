@@ -22,7 +22,7 @@ pub struct Unit {
 }
 
 impl Unit {
-    /// Unpacks an FMU of FMI 2.0 for co-simulation.
+    /// Unpacks an FMU of FMI 2.0, for co-simulation or model exchange.
     ///
     /// # Errors
     /// [`HostError`] if the file is unreadable or another kind of unit, has no library for this system, or if this is not Linux on x86-64.

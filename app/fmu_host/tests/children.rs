@@ -1,42 +1,16 @@
 //! Every behaviour of the unit's process gives an answer or an error in time. Shell scripts replace the process, so no unit has to crash.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
-use std::fs;
+mod units;
+
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use interplay_fmu_host::{Host, HostError, HostProgram, Request, Unit};
+use units::unit;
 
 const DESCRIPTION: &str = r#"<fmiModelDescription fmiVersion="2.0" guid="{1}"><CoSimulation modelIdentifier="case"/>
     <ModelVariables/></fmiModelDescription>"#;
-
-/// An archive whose files are stored as they are.
-fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
-    let (mut bytes, mut directory) = (Vec::new(), Vec::new());
-    let long = |number: usize| (number as u32).to_le_bytes();
-    let short = |number: usize| (number as u16).to_le_bytes();
-    for (name, content) in files {
-        let start = bytes.len();
-        let sizes = [long(content.len()), long(content.len())].concat();
-        bytes.extend(b"PK\x03\x04");
-        bytes.extend([0; 14]);
-        bytes.extend([&sizes[..], &short(name.len()), &[0; 2], name.as_bytes(), content].concat());
-        directory.extend(b"PK\x01\x02");
-        directory.extend([0; 16]);
-        directory.extend([&sizes[..], &short(name.len()), &[0; 12], &long(start), name.as_bytes()].concat());
-    }
-    let start = bytes.len();
-    let count = short(files.len());
-    bytes.extend([&directory[..], b"PK\x05\x06", &[0; 4], &count, &count].concat());
-    bytes.extend([&long(directory.len())[..], &long(start), &[0; 2]].concat());
-    bytes
-}
-
-fn unit(folder: &Path, files: &[(&str, &[u8])]) -> Result<Unit, HostError> {
-    let path = folder.join("case.fmu");
-    fs::write(&path, archive(files)).expect("written");
-    Unit::open(&path)
-}
 
 fn sound(folder: &Path) -> Unit {
     let files = [("modelDescription.xml", DESCRIPTION.as_bytes()), ("binaries/linux64/case.so", b"no library")];

@@ -23,11 +23,15 @@ pub(crate) struct FmuHost {
     /// The folder of its resources
     #[arg(value_name = "URI")]
     resources: String,
+
+    /// Numbers of states and event indicators, whether completed steps are told, and the tolerance, of a unit for model exchange
+    #[arg(value_name = "EXCHANGE")]
+    exchange: Option<String>,
 }
 
 impl FmuHost {
     pub(crate) fn execute(self) -> ExitStatus {
-        match serve(&self.library, &self.guid, &self.resources) {
+        match serve(&self.library, &self.guid, &self.resources, self.exchange.as_deref()) {
             Ok(()) => ExitStatus::Well,
             Err(error) => {
                 print_error(&format!("the FMU cannot be served: {error}"));

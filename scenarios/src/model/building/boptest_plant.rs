@@ -12,9 +12,9 @@ pub struct BoptestPlantConfig {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"http://127.0.0.1:8080")]
     pub url: Option<String>,
-    /// In place of a server: the case as a functional mock-up unit of FMI 2.0 for co-simulation with a library for Linux on x86-64, which
-    /// `interplay` runs in a process of its own. The path is relative to the scenario or plan that states it, and in a flag to the
-    /// current folder. Only our indicators are then computed, not those of BOPTEST.
+    /// In place of a server: the case as a functional mock-up unit of FMI 2.0, for co-simulation or model exchange, with a library for
+    /// Linux on x86-64, which `interplay` runs in a process of its own. The path is relative to the scenario or plan that states it, and
+    /// in a flag to the current folder. Only our indicators are then computed, not those of BOPTEST.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"wrapped.fmu", length(min = 1), extend("x-excludes" = ["url"]))]
     pub fmu: Option<String>,

@@ -122,6 +122,27 @@ pub fn number(request: &str, signals: &Signals, name: &str) -> Result<f64, Bopte
     })
 }
 
+/// The key of a signal's unit in the list of measurements.
+pub const UNIT: &str = "Unit";
+/// Units of temperatures. An FMU in °C is converted.
+const TEMPERATURE_UNITS: [&str; 2] = ["K", "degC"];
+
+/// Refuses a measurement that is listed with another unit than one of temperatures, or as without a unit. Lists that say nothing of
+/// units are accepted.
+///
+/// # Errors
+/// [`BoptestError::Invalid`].
+pub fn check_temperature(measurements: &Signals, name: &str) -> Result<(), BoptestError> {
+    let Some(unit) = measurements.get(name).and_then(|known| known.get(UNIT)) else { return Ok(()) };
+    let has = match unit.as_str() {
+        Some(unit) if TEMPERATURE_UNITS.contains(&unit) => return Ok(()),
+        Some(unit) => format!("has the unit `{unit}`"),
+        None => "has no unit".to_owned(),
+    };
+    let reason = format!("`{name}` {has}; the temperature of a zone must be in `K` or `degC`");
+    Err(BoptestError::Invalid { request: "GET /measurements".to_owned(), reason })
+}
+
 /// 0 °C \[K\].
 pub const ZERO_CELSIUS_K: f64 = 273.15;
 

@@ -11,8 +11,8 @@ pub enum BoptestError {
     /// The case is an FMU, and its process or its files failed.
     #[error(transparent)]
     Unit(#[from] HostError),
-    /// The case is an FMU that lacks requested data.
-    #[error("the FMU does not serve as a test case: {reason}")]
+    /// The case is an FMU that lacks requested data, or gives values that cannot be used.
+    #[error("the FMU does not serve as the building: {reason}")]
     Case {
         /// What is missing or wrong.
         reason: String,
@@ -81,4 +81,14 @@ pub enum BoptestError {
         /// Some of the existing names.
         known: String,
     },
+}
+
+impl BoptestError {
+    /// The error of a case that is an FMU: it speaks of the unit, not of a server and its requests.
+    pub(crate) fn of_unit(self) -> Self {
+        match self {
+            Self::Invalid { reason, .. } => Self::Case { reason },
+            other => other,
+        }
+    }
 }

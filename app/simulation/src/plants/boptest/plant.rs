@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::super::error::PlantError;
 use super::super::interface::{Benchmark, Foreseen, StepInputs, ThermalPlant};
 use super::super::walls;
-use super::api::{Bench, Signals, Test, celsius, number};
+use super::api::{Bench, Signals, Test, celsius, check_temperature, number};
 use super::fmu::FmuBench;
 use super::forecast::foresee;
 use super::indicators::Known;
@@ -118,6 +118,7 @@ impl BoptestPlant {
         for (index, zone) in self.config.zones.iter().enumerate() {
             let key = format!("building.plant.zones.{index}");
             found("measurement", &measurements, &zone.temperature, format!("{key}.temperature"))?;
+            check_temperature(&measurements, &zone.temperature)?;
             for (input, settings) in zone.inputs.iter().enumerate() {
                 found("input", &inputs, &settings.name, format!("{key}.inputs.{input}.name"))?;
             }
@@ -211,8 +212,8 @@ fn in_pulses(input: &BoptestInput, wanted: f64, held_back: &mut f64) -> f64 {
     least
 }
 
-impl ThermalPlant for BoptestPlant {
-    fn start(&mut self) -> Result<Vec<f64>, PlantError> {
+impl BoptestPlant {
+    fn begun(&mut self) -> Result<Vec<f64>, PlantError> {
         let mut bench = self.bench()?;
         let test = &mut *bench;
         self.check_names(test)?;
@@ -234,7 +235,7 @@ impl ThermalPlant for BoptestPlant {
         Ok(walls::at_rest_c(self.believed.network(), &zones_c, self.mean_outdoor_c))
     }
 
-    fn step(&mut self, inputs: &StepInputs<'_>, nodes_c: &mut [f64]) -> Result<(), PlantError> {
+    fn stepped(&mut self, inputs: &StepInputs<'_>, nodes_c: &mut [f64]) -> Result<(), PlantError> {
         let StepInputs { step, heat_kw, gains_kw, ambient_c } = *inputs;
         let names = self.believed.network().names();
         if let Some((zone, _)) = names.iter().zip(heat_kw).find(|(_, heat)| !heat.is_finite()) {
@@ -260,6 +261,24 @@ impl ThermalPlant for BoptestPlant {
         self.believed.step(nodes_c, heat_kw, ambient_c, gains_kw);
         nodes_c[..zones_c.len()].copy_from_slice(&zones_c);
         Ok(())
+    }
+
+    /// An error in the words of what runs: a unit or a server.
+    fn told(&self, error: PlantError) -> PlantError {
+        match error {
+            PlantError::Boptest(error) if self.config.fmu.is_some() => error.of_unit().into(),
+            other => other,
+        }
+    }
+}
+
+impl ThermalPlant for BoptestPlant {
+    fn start(&mut self) -> Result<Vec<f64>, PlantError> {
+        self.begun().map_err(|error| self.told(error))
+    }
+
+    fn step(&mut self, inputs: &StepInputs<'_>, nodes_c: &mut [f64]) -> Result<(), PlantError> {
+        self.stepped(inputs, nodes_c).map_err(|error| self.told(error))
     }
 
     fn is_foreign(&self) -> bool {
@@ -318,5 +337,19 @@ mod tests {
             assert!((sum / 1000.0 - wanted).abs() < 1e-3, "{sum} for {wanted}");
         }
         assert_eq!(in_pulses(&input(Some(0.8)), 0.9, &mut 0.0), 0.9);
+    }
+    #[test]
+    fn a_zone_needs_a_unit_of_temperature_and_errors_name_the_unit() {
+        let listed = json!({
+            "a": { "Unit": "K" }, "b": { "Unit": "degC" }, "c": {}, "power": { "Unit": "W" }, "plain": { "Unit": null },
+        });
+        let listed = listed.as_object().expect("an object");
+        for name in ["a", "b", "c"] {
+            check_temperature(listed, name).expect(name);
+        }
+        for (name, said) in [("power", "has the unit `W`"), ("plain", "has no unit")] {
+            let error = check_temperature(listed, name).expect_err(name).of_unit().to_string();
+            assert!(error.contains(said) && error.contains("FMU") && !error.contains("BOPTEST"), "{error}");
+        }
     }
 }

@@ -9,7 +9,7 @@ use interplay_scenarios::BoptestPlantConfig;
 use serde_json::{Map, Value, json};
 
 use super::CaseData;
-use crate::plants::boptest::api::{Bench, Signals, ZERO_CELSIUS_K};
+use crate::plants::boptest::api::{Bench, Signals, UNIT, ZERO_CELSIUS_K};
 use crate::plants::boptest::boptest_error::BoptestError;
 
 const DAY_S: f64 = 86_400.0;
@@ -151,7 +151,7 @@ impl FmuBench {
     }
 
     fn names(&self, variables: &[UnitVariable]) -> Signals {
-        variables.iter().map(|variable| (variable.name.clone(), json!({}))).collect()
+        variables.iter().map(|variable| (variable.name.clone(), json!({ UNIT: variable.unit }))).collect()
     }
 
     /// The requested series, from now on.
