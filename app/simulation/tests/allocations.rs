@@ -5,9 +5,10 @@ use std::fmt::Write;
 
 use interplay_scenarios::from_text;
 use interplay_simulation::Simulation;
+use interplay_simulation::measure::Subscriptions;
 
-/// Cars with the intelligent driver model in three lanes, 40 m apart in each.
-fn motorway(vehicles: usize) -> Simulation {
+/// Cars with the intelligent driver model in three lanes, 40 m apart in each, with these measures.
+fn motorway(vehicles: usize, subscriptions: Subscriptions) -> Simulation {
     let mut text = String::from(
         "title = 'Motorway'\nshows = 'Three lanes'\nduration_s = 100.0\nroad = { kind = 'lanes', lane_count = 3, lane_width_m = 3.5 }\n\
          defaults = { class = 'car', driver = { kind = 'idm' } }\nbudget = { plans = 1000000, steps = 100000000 }\n",
@@ -18,7 +19,8 @@ fn motorway(vehicles: usize) -> Simulation {
         writeln!(text, "[[vehicle]]\nname = 'car-{index}'\nstart = {start}\ngoal = {{ lane = {lane} }}")
             .expect("a text");
     }
-    Simulation::new(&from_text("motorway.toml", &text, &[]).expect("a scenario")).expect("a world")
+    let scenario = from_text("motorway.toml", &text, &[]).expect("a scenario");
+    Simulation::builder(&scenario).subscribed_to(subscriptions).build().expect("a world")
 }
 
 /// Allocations, and additional bytes held, over `ticks` ticks.
@@ -35,7 +37,7 @@ fn over(simulation: &mut Simulation, ticks: usize) -> (u64, i64) {
 fn allocations_per_tick_are_constant_in_time_and_proportional_to_vehicles() {
     const TICKS: usize = 100;
     let counted = [120, 240].map(|vehicles| {
-        let mut simulation = motorway(vehicles);
+        let mut simulation = motorway(vehicles, Subscriptions::everything());
         over(&mut simulation, TICKS);
         let (early, _) = over(&mut simulation, TICKS);
         over(&mut simulation, 2 * TICKS);
@@ -50,4 +52,13 @@ fn allocations_per_tick_are_constant_in_time_and_proportional_to_vehicles() {
         late
     });
     assert!(counted[1] < counted[0] * 22 / 10, "{counted:?}");
+}
+
+/// Subscribed to contacts, progress and the digest of the states, a tick of drivers that react allocates nothing once its memory has grown.
+#[test]
+fn a_subscribed_tick_of_drivers_that_react_allocates_nothing() {
+    let mut simulation = motorway(120, Subscriptions::only(&[], &[0]));
+    over(&mut simulation, 300);
+    let (count, held_more) = over(&mut simulation, 300);
+    assert_eq!((count, held_more), (0, 0), "allocations, and bytes held, in 300 ticks");
 }

@@ -110,7 +110,7 @@ impl RoadLanes {
 
     /// The lane in which a lateral position lies; beside the road, the nearest.
     pub fn at(&self, lateral_m: f64) -> usize {
-        let lane = ((lateral_m - self.right_m) / self.width_m).floor().max(0.0) as usize;
+        let lane = ((lateral_m - self.right_m) / self.width_m) as usize;
         lane.min(self.count - 1)
     }
 

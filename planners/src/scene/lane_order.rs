@@ -1,14 +1,17 @@
 //! The vehicles of a straight road by lanes, from rear to front, so that the vehicle ahead is found however far away it is.
 //!
-//! A road is cut lengthwise into bands, and each band lists the vehicles whose bodies reach into it by their arc length. A look into a lane
-//! is a binary search in each of its bands, and a walk that ends at the first vehicle that is at least partly in the lane.
+//! A road is cut lengthwise into bands, and each band lists the vehicles whose bodies reach into it by their arc length. Each vehicle knows
+//! how many of each band are behind it or beside it, so that a look into a lane is a walk in each of its bands, from the middle one on, which
+//! ends at the first vehicle that is at least partly in the lane.
 
 use crate::Agent;
 
-/// Bands per width of a 1/10 scale car's lane, so that a car is in two or three.
-const BAND_M: f64 = 0.18;
+/// Width of the narrowest body that counts \[m\].
+const LEAST_WIDTH_M: f64 = 0.18;
+/// Width of a band, as a share of that of the widest body: the body in the middle of a lane is in no band of the lane beside.
+const BAND_SHARE: f64 = 0.4;
 /// Bands of a road are at most as many, so that a vehicle far away from it costs no memory.
-const MOST_BANDS: usize = 256;
+const MOST_BANDS: usize = 48;
 
 /// A vehicle on a straight road.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,6 +32,9 @@ pub(crate) struct OnRoad {
     pub acceleration_mps2: f64,
 }
 
+/// The row of a vehicle that is no more on the road.
+const GONE: usize = usize::MAX;
+
 /// The vehicles of one straight road.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Road {
@@ -39,6 +45,8 @@ struct Road {
     band_m: f64,
     /// Numbers of `vehicles`, in their order.
     bands: Vec<Vec<u32>>,
+    /// For each vehicle in turn, how many of each band are not ahead of it.
+    behind: Vec<u32>,
     longest_m: f64,
 }
 
@@ -67,15 +75,25 @@ impl LaneOrder {
         headings_rad.all(|heading_rad| heading_rad == Some(first_rad))
     }
 
-    /// Sorts vehicles of one straight road anew, by their rows; none are not on the road. Memory is kept from the last time.
-    pub(crate) fn sort<'a>(&mut self, agents: impl Iterator<Item = Option<&'a Agent>>) {
-        self.places.clear();
-        self.road.clear();
-        for (row, agent) in agents.enumerate() {
-            self.places.push(None);
-            self.road.vehicles.extend(agent.map(|agent| OnRoad::of(row, agent)));
+    /// Sorts vehicles of one straight road anew, each with its row and, if it is on the road, its agent. Order and memory are kept from the
+    /// last time.
+    pub(crate) fn sort<'a>(&mut self, agents: impl ExactSizeIterator<Item = Option<&'a Agent>>) {
+        if self.places.len() != agents.len() {
+            self.places.clear();
+            self.places.resize(agents.len(), None);
+            self.road.vehicles.clear();
         }
+        for (row, agent) in agents.enumerate() {
+            let vehicle = agent.map(|agent| OnRoad::of(row, agent));
+            match (self.places[row], vehicle) {
+                (Some(place), Some(vehicle)) => self.road.vehicles[place as usize] = vehicle,
+                (Some(place), None) => self.road.vehicles[place as usize].row = GONE,
+                (None, vehicle) => self.road.vehicles.extend(vehicle),
+            }
+        }
+        self.road.vehicles.retain(|vehicle| vehicle.row != GONE);
         self.road.sort();
+        self.places.fill(None);
         for (place, vehicle) in self.road.vehicles.iter().enumerate() {
             self.places[vehicle.row] = Some(place as u32);
         }
@@ -84,7 +102,9 @@ impl LaneOrder {
     /// The vehicle of a row on its road; none of a vehicle that is not sorted.
     pub(crate) fn of(&self, row: usize) -> Option<OnStraightRoad<'_>> {
         let place = (*self.places.get(row)?)?;
-        Some(OnStraightRoad { road: &self.road, own: &self.road.vehicles[place as usize] })
+        let (place, bands) = (place as usize, self.road.bands.len());
+        let behind = &self.road.behind[place * bands..(place + 1) * bands];
+        Some(OnStraightRoad { road: &self.road, own: &self.road.vehicles[place], behind })
     }
 }
 
@@ -104,34 +124,67 @@ impl OnRoad {
 }
 
 impl Road {
-    fn clear(&mut self) {
-        self.vehicles.clear();
-        self.bands.iter_mut().for_each(Vec::clear);
-    }
-
     fn sort(&mut self) {
-        self.vehicles.sort_by(|one, other| one.along_m.total_cmp(&other.along_m).then(one.row.cmp(&other.row)));
-        self.longest_m = self.vehicles.iter().map(|one| one.ends_m[1]).fold(0.0, f64::max);
-        let low_m = self.vehicles.iter().map(|one| one.across_m - 0.5 * one.width_m).fold(f64::INFINITY, f64::min);
-        let high_m = self.vehicles.iter().map(|one| one.across_m + 0.5 * one.width_m).fold(low_m, f64::max);
-        let widest_m = self.vehicles.iter().map(|one| one.width_m).fold(BAND_M, f64::max);
-        self.band_m = widest_m.max((high_m - low_m) / (MOST_BANDS - 1) as f64);
+        sort_again(&mut self.vehicles, |one, other| {
+            one.along_m.total_cmp(&other.along_m).then(one.row.cmp(&other.row))
+        });
+        let all = || self.vehicles.iter();
+        self.longest_m = all().map(|one| one.ends_m[1]).fold(0.0, f64::max);
+        let low_m = all().map(|one| one.across_m - 0.5 * one.width_m).fold(f64::INFINITY, f64::min);
+        let high_m = all().map(|one| one.across_m + 0.5 * one.width_m).fold(low_m, f64::max);
+        let widest_m = all().map(|one| one.width_m).fold(LEAST_WIDTH_M, f64::max);
+        self.band_m = (BAND_SHARE * widest_m).max((high_m - low_m) / (MOST_BANDS - 1) as f64);
         self.first_m = low_m;
-        let count = ((high_m - low_m) / self.band_m).floor() as usize + 1;
+        let count = (((high_m - low_m) / self.band_m) as usize + 1).min(MOST_BANDS);
         self.bands.resize(self.bands.len().max(count), Vec::new());
-        for number in 0..self.vehicles.len() {
-            let OnRoad { across_m, width_m, .. } = self.vehicles[number];
-            for band in self.bands_of(Strip { centre_m: across_m, width_m }) {
-                self.bands[band].push(number as u32);
+        self.bands.iter_mut().for_each(Vec::clear);
+        self.behind.clear();
+        let mut from = 0;
+        while let Some(OnRoad { along_m, .. }) = self.vehicles.get(from).copied() {
+            let beside =
+                self.vehicles[from..].iter().take_while(|other| other.along_m.total_cmp(&along_m).is_eq()).count();
+            for number in from..from + beside {
+                let OnRoad { across_m, width_m, .. } = self.vehicles[number];
+                let [first, last] = self.bands_of(Strip { centre_m: across_m, width_m });
+                self.bands[first..=last].iter_mut().for_each(|band| band.push(number as u32));
             }
+            for _ in 0..beside {
+                self.behind.extend(self.bands.iter().map(|band| band.len() as u32));
+            }
+            from += beside;
         }
     }
 
-    /// The bands that a strip reaches into.
-    fn bands_of(&self, strip: Strip) -> std::ops::RangeInclusive<usize> {
-        let band = |lateral_m: f64| ((lateral_m - self.first_m) / self.band_m).floor().max(0.0) as usize;
+    /// The first and the last band that a strip reaches into.
+    fn bands_of(&self, strip: Strip) -> [usize; 2] {
         let last = self.bands.len().saturating_sub(1);
-        band(strip.centre_m - 0.5 * strip.width_m).min(last)..=band(strip.centre_m + 0.5 * strip.width_m).min(last)
+        [-0.5, 0.5]
+            .map(|side| (((strip.centre_m + side * strip.width_m - self.first_m) / self.band_m) as usize).min(last))
+    }
+
+    /// The same bands, each once, from the middle one outwards.
+    fn bands_from_middle(&self, strip: Strip) -> impl Iterator<Item = usize> {
+        let [first, last] = self.bands_of(strip);
+        let middle = (first + last) / 2;
+        (middle..=last).chain((first..middle).rev())
+    }
+}
+
+/// Sorts what was in order and has changed little since, without memory.
+pub(crate) fn sort_again<T: Copy>(sorted: &mut [T], order: impl Fn(&T, &T) -> std::cmp::Ordering) {
+    let most_moves = 8 * sorted.len();
+    let mut moves = 0;
+    for next in 1..sorted.len() {
+        let (one, mut place) = (sorted[next], next);
+        while place > 0 && order(&sorted[place - 1], &one).is_gt() {
+            sorted[place] = sorted[place - 1];
+            place -= 1;
+        }
+        sorted[place] = one;
+        moves += next - place;
+        if moves > most_moves {
+            return sorted.sort_unstable_by(order);
+        }
     }
 }
 
@@ -140,45 +193,45 @@ impl Road {
 pub(crate) struct OnStraightRoad<'a> {
     road: &'a Road,
     pub own: &'a OnRoad,
+    /// How many of each band are not ahead of it.
+    behind: &'a [u32],
 }
 
 impl<'a> OnStraightRoad<'a> {
     /// The vehicle with the smallest gap ahead of its own front that is at least partly in a strip, and that gap between bumpers \[m\].
     pub fn ahead(&self, strip: Strip) -> Option<(&'a OnRoad, f64)> {
         let (road, own) = (self.road, self.own);
-        let mut best: Option<(&OnRoad, f64)> = None;
-        for band in road.bands_of(strip) {
-            let numbers = road.bands.get(band).map_or(&[][..], Vec::as_slice);
-            let from = numbers.partition_point(|number| road.vehicles[*number as usize].along_m <= own.along_m);
-            for number in &numbers[from..] {
+        let mut best: Option<(f64, u32)> = None;
+        for band in road.bands_from_middle(strip) {
+            for number in &road.bands[band][self.behind[band] as usize..] {
                 let other = &road.vehicles[*number as usize];
                 let ahead_m = other.along_m - own.along_m;
-                if best.is_some_and(|(_, gap_m)| ahead_m - road.longest_m - own.ends_m[0] > gap_m) {
+                if best.is_some_and(|(gap_m, _)| ahead_m - road.longest_m - own.ends_m[0] > gap_m) {
                     break;
                 }
-                let gap_m = ahead_m - other.ends_m[1] - own.ends_m[0];
-                if is_in(strip, other) && best.is_none_or(|(_, least_m)| gap_m < least_m) {
-                    best = Some((other, gap_m));
+                let found = (ahead_m - other.ends_m[1] - own.ends_m[0], *number);
+                if is_in(strip, other) && best.is_none_or(|best| found < best) {
+                    best = Some(found);
                 }
             }
         }
-        best
+        best.map(|(gap_m, number)| (&road.vehicles[number as usize], gap_m))
     }
 
     /// The nearest vehicle behind or beside it that is at least partly in a strip, among those that count.
     pub fn behind(&self, strip: Strip, counts: impl Fn(&OnRoad) -> bool) -> Option<&'a OnRoad> {
         let (road, own) = (self.road, self.own);
-        let mut best: Option<&OnRoad> = None;
-        for band in road.bands_of(strip) {
-            let numbers = road.bands.get(band).map_or(&[][..], Vec::as_slice);
-            let to = numbers.partition_point(|number| road.vehicles[*number as usize].along_m <= own.along_m);
-            let behind = numbers[..to].iter().rev().map(|number| &road.vehicles[*number as usize]);
-            let found = behind.filter(|other| other.row != own.row).find(|other| is_in(strip, other) && counts(other));
-            if let Some(found) = found.filter(|found| best.is_none_or(|best| found.along_m > best.along_m)) {
-                best = Some(found);
-            }
+        let mut best: Option<u32> = None;
+        for band in road.bands_from_middle(strip) {
+            let numbers = road.bands[band][..self.behind[band] as usize].iter().copied().rev();
+            let nearer = numbers.take_while(|number| best.is_none_or(|best| *number > best));
+            let is_found = |number: &u32| {
+                let other = &road.vehicles[*number as usize];
+                other.row != own.row && is_in(strip, other) && counts(other)
+            };
+            best = { nearer }.find(is_found).or(best);
         }
-        best
+        best.map(|number| &road.vehicles[number as usize])
     }
 }
 

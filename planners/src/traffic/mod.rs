@@ -43,6 +43,7 @@ mod tests;
 
 use std::sync::Arc;
 
+use crate::{Plan, Trajectory};
 pub use committed::{CommittedPlan, Origin};
 pub use deciding::{Decided, Decision};
 pub use limits::applied_input;
@@ -50,6 +51,7 @@ pub use neighbours::Neighbours;
 pub use observation::Observations;
 pub use planning_order::planning_order;
 pub use presence::{Presence, Stay};
+pub use reacting::Reacting;
 pub use road_user::RoadUser;
 
 use crate::rules::{RoadRules, RuleBook};
@@ -75,6 +77,8 @@ pub struct Traffic {
     pub observations: Observations,
     /// The vehicles of a straight road by lanes, for drivers that react.
     pub lane_order: LaneOrder,
+    /// Those that react in this tick.
+    pub reacting: Reacting,
 }
 
 impl Traffic {
@@ -82,11 +86,15 @@ impl Traffic {
     /// last one are cleared. A vehicle that follows a record is expected to keep its speed, whatever it planned before.
     pub fn begin_plan(&mut self, tick: usize, time_s: f64) {
         (self.tick, self.near) = (tick, Neighbours::default());
-        let (prediction, plan) = (Arc::default(), Arc::default());
+        let nothing = (Trajectory::default(), Plan::default());
+        let mut shared: Option<(Arc<Trajectory>, Arc<Plan>)> = None;
         for user in &mut self.road_users {
-            user.agent.prediction = Arc::clone(&prediction);
+            if *user.agent.prediction != nothing.0 || *user.plan != nothing.1 {
+                let (prediction, plan) = shared.get_or_insert_default();
+                (user.agent.prediction, user.plan) = (Arc::clone(prediction), Arc::clone(plan));
+            }
             (user.agent.rules, user.agent.urgency) = (RoadRules::default(), 1.0);
-            (user.plan, user.origin) = (Arc::clone(&plan), Origin::default());
+            user.origin = Origin::default();
             user.reaction = None;
             if user.follows_record_at(time_s) {
                 user.committed = CommittedPlan::default();

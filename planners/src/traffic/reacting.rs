@@ -12,7 +12,14 @@ use crate::rules::beside_no_network;
 use crate::rules::urgency::{braking_behind, ratio_to_comfort};
 use crate::scene::lane_order::{LaneOrder, OnRoad, OnStraightRoad, Strip};
 use crate::scene::{Knowledge, Moment};
-use crate::{Agent, PlanError, Scene};
+use crate::{Agent, Scene};
+
+/// The vehicles that react in a tick, and their answers while they are asked. Memory is kept from tick to tick.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reacting {
+    rows: Vec<usize>,
+    answers: Vec<Option<Reaction>>,
+}
 
 impl Traffic {
     /// Decides which vehicles react in this tick.
@@ -26,22 +33,18 @@ impl Traffic {
         }
     }
 
-    /// The rows of the vehicles on the road that react.
-    fn reacting(&self) -> impl Iterator<Item = usize> + '_ {
-        let users = self.road_users.iter().enumerate();
-        users.filter(|(_, user)| user.is_reacting && !user.is_absent()).map(|(row, _)| row)
-    }
-
     /// Prepares what the reacting drivers see, what the rules ask of them, and how urgent it is for them to brake.
     pub(super) fn prepare_reactions(&mut self) {
-        let rows: Vec<usize> = self.reacting().collect();
-        if rows.is_empty() {
+        self.reacting.rows.clear();
+        let users = self.road_users.iter().enumerate();
+        let reacting = users.filter(|(_, user)| user.is_reacting && !user.is_absent());
+        self.reacting.rows.extend(reacting.map(|(row, _)| row));
+        if self.reacting.rows.is_empty() {
             return;
         }
-        let mut lane_order = std::mem::take(&mut self.lane_order);
-        lane_order.sort(self.road_users.iter().map(|user| (!user.is_absent()).then_some(&user.agent)));
-        self.lane_order = lane_order;
-        for row in rows {
+        self.lane_order.sort(self.road_users.iter().map(|user| (!user.is_absent()).then_some(&user.agent)));
+        for number in 0..self.reacting.rows.len() {
+            let row = self.reacting.rows[number];
             let urgency = self.lane_order.of(row).map_or(1.0, |road| self.urgency_on(&road));
             let RoadUser { agent, keeps_rules, .. } = &mut self.road_users[row];
             (agent.rules, agent.urgency) = (beside_no_network(*keeps_rules), urgency);
@@ -57,16 +60,18 @@ impl Traffic {
         ratio_to_comfort(agent, road.ahead(way).map_or(0.0, behind))
     }
 
-    /// Asks every reacting driver on the road for its input. `ask` answers for several rows at once, in their order: no answer depends on
+    /// Asks every reacting driver on the road for its input. `ask` adds the answers of some rows, in their order: no answer depends on
     /// another one. A driver without an answer plans like the others.
-    pub fn react(&mut self, ask: impl FnOnce(&Traffic, &[usize]) -> Vec<Result<Reaction, PlanError>>) {
-        let rows: Vec<usize> = self.reacting().filter(|row| !self.road_users[*row].is_crashed).collect();
-        if rows.is_empty() {
-            return;
+    pub fn react(&mut self, ask: impl FnOnce(&Traffic, &[usize], &mut Vec<Option<Reaction>>)) {
+        let mut reacting = std::mem::take(&mut self.reacting);
+        reacting.rows.retain(|row| !self.road_users[*row].is_crashed);
+        if !reacting.rows.is_empty() {
+            ask(self, &reacting.rows, &mut reacting.answers);
         }
-        for (row, answer) in rows.iter().zip(ask(self, &rows)) {
-            self.road_users[*row].reaction = answer.ok();
+        for (row, answer) in reacting.rows.iter().zip(reacting.answers.drain(..)) {
+            self.road_users[*row].reaction = answer;
         }
+        self.reacting = reacting;
     }
 
     /// What a driver answers that reacts to what its vehicle can see now.

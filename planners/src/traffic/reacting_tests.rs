@@ -31,8 +31,8 @@ fn drive(users: Vec<RoadUser>, horizon: usize, ticks: usize, mut look: impl FnMu
     for tick in 0..ticks {
         traffic.begin_plan(tick, STEP_S * tick as f64);
         traffic.predict();
-        traffic.react(|traffic, rows| {
-            rows.iter().map(|row| traffic.at_moment(*row, |moment| planners[*row].react(moment))).collect()
+        traffic.react(|traffic, rows, answers| {
+            answers.extend(rows.iter().map(|row| traffic.at_moment(*row, |moment| planners[*row].react(moment).ok())));
         });
         let decisions = traffic.plan(|_, _| panic!("all react"));
         assert!(decisions.is_empty(), "a reacting vehicle decides nothing else");
@@ -111,7 +111,7 @@ fn in_an_emergency_a_reacting_driver_brakes_as_it_needs() {
     for tick in 0..80 {
         traffic.begin_plan(tick, STEP_S * tick as f64);
         traffic.predict();
-        traffic.react(|traffic, _| vec![traffic.at_moment(0, |moment| planner.react(moment))]);
+        traffic.react(|traffic, _, answers| answers.push(traffic.at_moment(0, |moment| planner.react(moment).ok())));
         let mut inputs = traffic.applied_inputs();
         let speed_mps = traffic.road_users[1].agent.state.speed_mps;
         inputs[1].acceleration_mps2 = (-6.0_f64).max(-speed_mps / STEP_S);
@@ -132,7 +132,7 @@ fn a_driver_without_an_answer_plans_like_the_others() {
     };
     traffic.begin_plan(0, 0.0);
     traffic.predict();
-    traffic.react(|_, rows| rows.iter().map(|_| Err(crate::PlanError::NoInput)).collect());
+    traffic.react(|_, rows, answers| answers.resize(rows.len(), None));
     let mut asked = Vec::new();
     let decisions = traffic.plan(|row, scene| {
         asked.push((row, scene.others.len(), scene.knowledge.is_of_motion()));

@@ -83,6 +83,8 @@ pub struct Measures {
     along_m: Vec<f64>,
     /// Their inputs of the tick before.
     previous_inputs: Vec<Input>,
+    /// Their states at the end of the tick; memory for the next one.
+    after: Vec<State>,
 }
 
 /// All measures of one vehicle.
@@ -187,6 +189,7 @@ impl Measures {
             needs: subscriptions.needs(metrics_of(&scenario.metrics)),
             previous_inputs: vec![Input::default(); scenario.vehicles.len()],
             along_m,
+            after: Vec::new(),
         }
     }
 }
@@ -198,8 +201,11 @@ pub fn measure(
     mut current_frame: ResMut<CurrentFrame>,
     mut measures: ResMut<Measures>,
 ) {
-    let after: Vec<State> = traffic.0.road_users.iter().map(|user| user.agent.state).collect();
+    let mut after = std::mem::take(&mut measures.after);
+    after.clear();
+    after.extend(traffic.0.road_users.iter().map(|user| user.agent.state));
     measures.observe(&mut current_frame.0, &after, &clock);
+    measures.after = after;
 }
 
 impl Measures {

@@ -48,7 +48,7 @@ pub fn describe(
     (mut current_frame, mut spare): (ResMut<CurrentFrame>, ResMut<SpareFrames>),
 ) {
     let frame = &mut current_frame.0;
-    frame.vehicles.append(&mut spare.0);
+    std::mem::swap(&mut frame.vehicles, &mut spare.0);
     frame.vehicles.resize_with(fleet.0.len(), VehicleFrame::default);
     for (row, (entity, vehicle)) in fleet.0.iter().zip(&mut frame.vehicles).enumerate() {
         let plan_ms = vehicles.get(*entity).map_or(0.0, |driving| driving.plan_ms);

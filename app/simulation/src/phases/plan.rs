@@ -18,11 +18,13 @@ use crate::state::frame::{Event, Frame, Level};
 
 /// A vehicle with what decides for it.
 type Seat<'a> = (&'a TrafficRow, Mut<'a, Driving>, Mut<'a, HandedIn>);
+/// All vehicles with what decides for them.
+type Seats<'w, 's> = Query<'w, 's, (&'static TrafficRow, &'static mut Driving, &'static mut HandedIn)>;
 
 /// Lets every driver decide. Decisions that do not depend on each other are made on all threads of [`DecidingThreads`], with the same bits
 /// on any number.
 pub fn plan(
-    mut vehicles: Query<(&TrafficRow, &mut Driving, &mut HandedIn)>,
+    mut vehicles: Seats<'_, '_>,
     (fleet, threads): (Res<Fleet>, Res<DecidingThreads>),
     (measured, watchers): (Res<MeasuredParts>, Res<Watchers>),
     mut traffic: ResMut<CurrentTraffic>,
@@ -30,14 +32,11 @@ pub fn plan(
 ) {
     let (traffic, frame) = (&mut traffic.0, &mut current_frame.0);
     change_detail(&mut vehicles, &fleet, &traffic.road_users, frame);
-    let mut seats: Vec<Option<Seat<'_>>> = (0..traffic.road_users.len()).map(|_| None).collect();
-    for seat in &mut vehicles {
-        let row = seat.0.0;
-        seats[row] = Some(seat);
-    }
     let is_described = measured.plans || watchers.are_there();
-    traffic
-        .react(|traffic, rows| each(&mut seats, rows, &threads, |row, seat| react(traffic, row, seat, is_described)));
+    let mut asked = Asked { vehicles, fleet: &fleet.0, pool: threads.0.as_deref() };
+    traffic.react(|traffic, rows, answers| {
+        asked.answer(rows, answers, |row, seat| react(traffic, row, seat, is_described).ok());
+    });
     if is_described {
         traffic.describe_reactions();
         let events =
@@ -46,8 +45,11 @@ pub fn plan(
             });
         frame.events.extend(events.map(|(vehicle, text)| Event { vehicle, level: Level::Note, text }));
     }
-    let decisions =
-        traffic.plan_in_sets(|traffic, rows| each(&mut seats, rows, &threads, |row, seat| decide(traffic, row, seat)));
+    let decisions = traffic.plan_in_sets(|traffic, rows| {
+        let mut answers = Vec::with_capacity(rows.len());
+        asked.answer(rows, &mut answers, |row, seat| decide(traffic, row, seat));
+        answers
+    });
     for decision in decisions {
         let user = &mut traffic.road_users[decision.vehicle];
         note(&decision, &user.agent.name, frame);
@@ -57,20 +59,34 @@ pub fn plan(
     }
 }
 
-/// Does something for each of some rows, in parallel if there are threads and several rows; answers in the order of the rows.
-fn each<T: Send>(
-    seats: &mut [Option<Seat<'_>>],
-    rows: &[usize],
-    threads: &DecidingThreads,
-    answer: impl Fn(usize, Option<&mut Seat<'_>>) -> T + Sync,
-) -> Vec<T> {
-    let Some(pool) = threads.0.as_ref().filter(|_| rows.len() > 1) else {
-        return rows.iter().map(|row| answer(*row, seats[*row].as_mut())).collect();
-    };
-    let mut free: Vec<Option<&mut Option<Seat<'_>>>> = seats.iter_mut().map(Some).collect();
-    let chosen: Vec<_> = rows.iter().map(|row| (*row, free[*row].take())).collect();
-    let answered = |(row, seat): (usize, Option<&mut Option<Seat<'_>>>)| answer(row, seat.and_then(Option::as_mut));
-    pool.install(|| chosen.into_par_iter().map(answered).collect())
+/// The vehicles that are asked, and the threads on which they may answer.
+struct Asked<'a, 'w, 's> {
+    vehicles: Seats<'w, 's>,
+    fleet: &'a [Entity],
+    pool: Option<&'a rayon::ThreadPool>,
+}
+
+impl Asked<'_, '_, '_> {
+    /// Adds an answer for each of some rows, in their order; answers in parallel if there are threads and several rows.
+    fn answer<T: Send>(
+        &mut self,
+        rows: &[usize],
+        answers: &mut Vec<T>,
+        answer: impl Fn(usize, Option<&mut Seat<'_>>) -> T + Sync,
+    ) {
+        let Some(pool) = self.pool.filter(|_| rows.len() > 1) else {
+            let fleet = self.fleet;
+            let each = rows.iter().map(|row| answer(*row, self.vehicles.get_mut(fleet[*row]).ok().as_mut()));
+            return answers.extend(each);
+        };
+        let mut seats: Vec<Option<Seat<'_>>> = (0..self.fleet.len()).map(|_| None).collect();
+        for seat in &mut self.vehicles {
+            let row = seat.0.0;
+            seats[row] = Some(seat);
+        }
+        let mut chosen: Vec<_> = rows.iter().map(|row| (*row, seats[*row].take())).collect();
+        pool.install(|| chosen.par_iter_mut().map(|(row, seat)| answer(*row, seat.as_mut())).collect_into_vec(answers));
+    }
 }
 
 /// Why a vehicle cannot decide whose entity is gone.
@@ -117,12 +133,10 @@ fn planned(driving: &mut Driving, scene: &Scene) -> Result<Plan, PlanError> {
 }
 
 /// Switches the drivers of vehicles that have come near the ego, or have moved away from it.
-fn change_detail(
-    vehicles: &mut Query<(&TrafficRow, &mut Driving, &mut HandedIn)>,
-    fleet: &Fleet,
-    road_users: &[RoadUser],
-    frame: &mut Frame,
-) {
+fn change_detail(vehicles: &mut Seats<'_, '_>, fleet: &Fleet, road_users: &[RoadUser], frame: &mut Frame) {
+    if vehicles.iter().all(|(_, driving, _)| driving.detail.is_none()) {
+        return;
+    }
     let states: Vec<_> = road_users.iter().map(|user| (!user.is_absent()).then_some(user.agent.state)).collect();
     for (row, entity) in fleet.0.iter().enumerate() {
         let Ok((_, mut driving, _)) = vehicles.get_mut(*entity) else { continue };

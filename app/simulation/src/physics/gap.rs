@@ -131,6 +131,7 @@ const MAX_STEP_TICKS: f64 = 0.25;
 const MARGIN_RADII: f64 = 0.02;
 
 /// The motion of one vehicle during a tick.
+#[derive(Clone, Copy)]
 pub(super) struct Path<'a> {
     pub footprint: &'a Footprint,
     /// Whether it is not on the road.
@@ -167,19 +168,56 @@ impl Path<'_> {
     }
 }
 
-/// Whether any two vehicles may touch during the tick: those that are no further apart at its start than they approach each other, and a
-/// margin for the single precision of the physics engine.
-pub(super) fn may_touch(paths: &[Path<'_>]) -> bool {
-    let circles: Vec<_> = paths.iter().map(|path| path.circle(&path.from)).collect();
-    let fastest_m = paths.iter().map(Path::moved_m).fold(0.0, f64::max);
-    let widest_m = paths.iter().map(|path| path.footprint.radius_m).fold(0.0, f64::max);
-    let margin_m = MARGIN_RADII * widest_m;
-    near_pairs(&circles, 2.0 * fastest_m + margin_m).into_iter().any(|[one, other]| {
-        let (a, b) = (&paths[one], &paths[other]);
-        let apart_m = separation_m((a.footprint, &a.from), (b.footprint, &b.from));
-        // A state that is not a number may touch all.
-        (apart_m - margin_m).partial_cmp(&a.approach_m(b)).is_none_or(std::cmp::Ordering::is_le)
-    })
+/// Extents of vehicles along an axis, whose memory is kept from tick to tick.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sweep(Vec<(f64, f64, usize)>);
+
+impl Sweep {
+    /// Whether any two of some vehicles may touch during the tick: those that are no further apart at its start than they approach each
+    /// other, and a margin for the single precision of the physics engine. The motion that all have in common brings none nearer.
+    pub fn may_touch<'a>(&mut self, count: usize, path: impl Fn(usize) -> Path<'a>) -> bool {
+        let present = || (0..count).map(|row| (row, path(row))).filter(|(_, path)| !path.is_absent);
+        let mut common_m = [0.0, 0.0];
+        let moved_m = |path: &Path<'_>| [path.to.x_m - path.from.x_m, path.to.y_m - path.from.y_m];
+        for (_, path) in present() {
+            let moved_m = moved_m(&path);
+            common_m = [0, 1].map(|axis| common_m[axis] + moved_m[axis] / count as f64);
+        }
+        if !common_m.iter().all(|m| m.is_finite()) {
+            common_m = [0.0, 0.0];
+        }
+        let mut bounds = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        let (mut fastest_m, mut widest_m) = (0.0_f64, 0.0_f64);
+        for (_, path) in present() {
+            let [x_m, y_m] = moved_m(&path);
+            let turned_m = (path.to.heading_rad - path.from.heading_rad).abs() * path.footprint.radius_m;
+            let [x_m, y_m] = [x_m - common_m[0], y_m - common_m[1]];
+            fastest_m = fastest_m.max((x_m * x_m + y_m * y_m).sqrt() + turned_m);
+            widest_m = widest_m.max(path.footprint.radius_m);
+            for (bound, m) in bounds.iter_mut().zip(path.from.position()) {
+                *bound = [bound[0].min(m), bound[1].max(m)];
+            }
+        }
+        let axis = usize::from(bounds[1][1] - bounds[1][0] > bounds[0][1] - bounds[0][0]);
+        let margin_m = MARGIN_RADII * widest_m;
+        self.0.clear();
+        self.0.extend(present().map(|(row, path)| {
+            let (m, radius_m) = (path.from.position()[axis], path.footprint.radius_m);
+            // A state that is not a number may touch all.
+            if m.is_finite() { (m - radius_m, m + radius_m, row) } else { (f64::NEG_INFINITY, f64::INFINITY, row) }
+        }));
+        self.0.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.2.cmp(&other.2)));
+        let window_m = 2.0 * fastest_m + margin_m;
+        let near = self.0.iter().enumerate().flat_map(|(place, (_, high_m, one))| {
+            let others = self.0[place + 1..].iter().take_while(move |(low_m, ..)| low_m - high_m <= window_m);
+            others.map(move |(.., other)| [*one, *other])
+        });
+        { near }.any(|pair| {
+            let [a, b] = pair.map(&path);
+            let apart_m = separation_m((a.footprint, &a.from), (b.footprint, &b.from));
+            (apart_m - margin_m).partial_cmp(&a.approach_m(&b)).is_none_or(std::cmp::Ordering::is_le)
+        })
+    }
 }
 
 /// The share of the tick at the next check, after one at `share`.
@@ -236,7 +274,7 @@ mod tests {
                 },
             };
             let paths = [path(from([13, 29, 41]), [53, 67, 71]), path(from([83, 97, 101]), [113, 127, 131])];
-            if may_touch(&paths) {
+            if Sweep::default().may_touch(2, |row| paths[row]) {
                 continue;
             }
             spared += 1;

@@ -5,17 +5,56 @@
 //! An actuator with the value `u` and the command `w` obeys `τ u′ = w − u`, and changes by no more than `u′_max` per second. Over
 //! a sub-step `h` with constant `w` the lag alone gives `u⁺ = w + (u − w) e^(−h/τ)`, whatever `τ ≥ 0`.
 
+use interplay_planners::traffic::RoadUser;
 use interplay_planners::{Bicycle, Input, State};
 use interplay_scenarios::Dynamic;
 use rapier2d::prelude::{PhysicsWorld, RigidBodyBuilder};
 
 use super::contacts::{Contact, Contacts, Moving, Touch, impulse_ns};
-use super::footprint::pose;
-use super::gap::{FootprintGaps, Path, may_touch, next_look};
+use super::footprint::{Footprint, pose};
+use super::gap::{FootprintGaps, Path, Sweep, next_look};
 
 /// A body whose pose the model sets.
 pub(super) fn body(state: &State) -> RigidBodyBuilder {
     RigidBodyBuilder::kinematic_position_based().pose(pose(state, [0.0; 2]))
+}
+
+/// What [`advance_apart`] keeps from tick to tick: memory alone.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Apart {
+    ends: Vec<State>,
+    sweep: Sweep,
+}
+
+/// Advances all vehicles by a tick if no two of them may touch in it; returns whether it has. `recorded` is the state at the end of the tick
+/// of a vehicle that follows a record. The engine has no part in it.
+pub(super) fn advance_apart(
+    Apart { ends, sweep }: &mut Apart,
+    road_users: &mut [RoadUser],
+    footprints: &[Footprint],
+    step_s: f64,
+    recorded: impl Fn(&RoadUser) -> Option<State>,
+) -> bool {
+    ends.clear();
+    ends.extend(road_users.iter().map(|user| {
+        let RoadUser { agent, .. } = user;
+        let stays = user.is_absent().then_some(agent.state);
+        let driven = || Bicycle::new(&agent.body, step_s).step(&agent.state, &agent.previous_input);
+        stays.or_else(|| recorded(user)).unwrap_or_else(driven)
+    }));
+    let path = |row: usize| Path {
+        footprint: &footprints[row],
+        is_absent: road_users[row].is_absent(),
+        from: road_users[row].agent.state,
+        to: ends[row],
+    };
+    if sweep.may_touch(road_users.len(), path) {
+        return false;
+    }
+    for (user, end) in road_users.iter_mut().zip(ends) {
+        user.agent.state = *end;
+    }
+    true
 }
 
 /// Advances all vehicles by a tick; returns their states at its end, and the contacts that began.
@@ -37,7 +76,7 @@ pub(super) fn advance<'a>(
     };
     let paths: Vec<Path<'_>> = vehicles.iter().map(path).collect();
     // The engine is asked only in ticks in which two vehicles may touch; distances within the tick are measured at the same times in all.
-    let may_touch = may_touch(&paths);
+    let may_touch = Sweep::default().may_touch(paths.len(), |row| paths[row]);
     let (mut share, mut contacts) = (0.0, Vec::new());
     while share < 1.0 && (may_touch || gaps.is_measured) {
         share = next_look(&paths, share);

@@ -37,6 +37,7 @@ use contacts::{Contact, Moving};
 use dynamic::DynamicPlant;
 use footprint::{Footprint, length_m};
 use gap::{Closest, FootprintGaps};
+use kinematic::{Apart, advance_apart};
 
 /// Largest distance of two bodies that Rapier reports as a contact, for vehicles of passenger cars' size \[m\].
 const TOUCHING_M: f32 = 1e-4;
@@ -54,6 +55,7 @@ pub struct Physics {
     /// The dynamic plant; without it, bodies follow the bicycle model.
     dynamic: Option<DynamicPlant>,
     gaps: FootprintGaps,
+    apart: Apart,
 }
 
 impl Physics {
@@ -70,7 +72,7 @@ impl Physics {
             Plant::Kinematic(_) => None,
             Plant::Dynamic(settings) => Some(DynamicPlant::new(*settings, origin)),
         };
-        Physics { world, dynamic, gaps: FootprintGaps::new(scenario) }
+        Physics { world, dynamic, gaps: FootprintGaps::new(scenario), apart: Apart::default() }
     }
 
     /// A copy that continues bit for bit as this world does.
@@ -106,7 +108,7 @@ impl Physics {
             soft_bodies: soft_bodies.clone(),
             ..PhysicsWorld::default()
         };
-        Physics { world, dynamic: self.dynamic.clone(), gaps: self.gaps.clone() }
+        Physics { world, dynamic: self.dynamic.clone(), gaps: self.gaps.clone(), apart: Apart::default() }
     }
 
     /// Adds a vehicle, or an obstacle with its outline.
@@ -140,9 +142,17 @@ pub fn step(
     measured: Res<MeasuredParts>,
 ) {
     let (frame, road_users) = (&mut current_frame.0, &mut traffic.0.road_users);
-    let Physics { world, dynamic, gaps } = &mut *physics;
+    let Physics { world, dynamic, gaps, apart } = &mut *physics;
     gaps.is_measured = measured.gaps;
     let footprints = gaps.footprints();
+    let end_s = clock.within_s(1.0);
+    if dynamic.is_none()
+        && !measured.gaps
+        && advance_apart(apart, road_users, &footprints, clock.step_s, |user| recorded(user, end_s))
+    {
+        clock.tick += 1;
+        return;
+    }
     let moving = |((user, entity), footprint): ((&RoadUser, &Entity), _)| Moving {
         handle: bodies.get(*entity).map_or_else(|_| RigidBodyHandle::invalid(), |body| body.0),
         body: user.agent.body,
@@ -150,7 +160,7 @@ pub fn step(
         state: user.agent.state,
         input: user.agent.previous_input,
         is_absent: user.is_absent(),
-        recorded: recorded(user, clock.within_s(1.0)),
+        recorded: recorded(user, end_s),
     };
     let moving: Vec<Moving<'_>> = road_users.iter().zip(&fleet.0).zip(&*footprints).map(moving).collect();
     let before: Vec<State> = moving.iter().map(|vehicle| vehicle.state).collect();

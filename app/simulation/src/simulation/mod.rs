@@ -345,8 +345,9 @@ impl Simulation {
     /// Returns an error if an external driver has not decided.
     fn refuse_without_input(&mut self) -> Result<(), RunError> {
         let traffic = &self.world.resource::<CurrentTraffic>().0;
+        let fleet = &self.world.resource::<Fleet>().0;
         let waits = |(row, user): &(usize, &RoadUser)| {
-            self.world.get::<HandedIn>(self.entity(*row)) == Some(&HandedIn::Awaited) && !user.is_crashed
+            self.world.get::<HandedIn>(fleet[*row]) == Some(&HandedIn::Awaited) && !user.is_crashed
         };
         match traffic.road_users.iter().enumerate().find(waits) {
             Some((_, user)) => Err(RunError::NoInput { vehicle: user.agent.name.clone(), time_s: self.time_s() }),

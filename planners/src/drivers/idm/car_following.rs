@@ -15,7 +15,16 @@ const MIN_GAP_M: f64 = 1e-3;
 impl Settings {
     /// The acceleration `a` of a vehicle behind `leader`, if there is one, \[m/s²\].
     pub(super) fn acceleration(&self, speed_mps: f64, wanted_mps: f64, leader: Option<Leader>) -> f64 {
-        let free = libm::pow(speed_mps.max(0.0) / wanted_mps.max(MIN_GAP_M), self.exponent);
+        self.acceleration_with(self.free(speed_mps, wanted_mps), speed_mps, leader)
+    }
+
+    /// What a speed takes of the acceleration on a free road, `(v/v₀)^δ`.
+    pub(super) fn free(&self, speed_mps: f64, wanted_mps: f64) -> f64 {
+        libm::pow(speed_mps.max(0.0) / wanted_mps.max(MIN_GAP_M), self.exponent)
+    }
+
+    /// The same acceleration, with [`Settings::free`] of its speeds.
+    pub(super) fn acceleration_with(&self, free: f64, speed_mps: f64, leader: Option<Leader>) -> f64 {
         let close = leader.map_or(0.0, |leader| {
             let closing = speed_mps * (speed_mps - leader.speed_mps);
             let dynamic =

@@ -151,6 +151,7 @@ pub(super) fn choose(
     }
     let beside = [now.checked_sub(1), Some(now + 1).filter(|lane| *lane < lanes.count())].into_iter().flatten();
     let mut here = None;
+    let free = settings.free(own.speed_mps, own.wanted_mps);
     // A driver does not change to a lane that it will have to leave again.
     for lane in beside.filter(|lane| lanes.end_m(*lane).is_none()) {
         let nearer = if lane.abs_diff(goal) < now.abs_diff(goal) { 1.0 } else { -1.0 };
@@ -159,7 +160,7 @@ pub(super) fn choose(
             continue;
         }
         let here = *here.get_or_insert_with(|| seen.seen(now));
-        let change = Change { own, settings, here, there };
+        let change = Change { own, settings, free, here, there };
         let advantage = change.advantage() + nearer * mobil.bias_mps2 - mobil.threshold_mps2;
         let incentive_mps2 = if change.is_gentle() && seen.has_room() { advantage } else { -mobil.threshold_mps2 };
         if incentive_mps2 > best.incentive_mps2 {
@@ -174,6 +175,8 @@ pub(super) fn choose(
 struct Change<'a> {
     own: &'a Changing,
     settings: &'a Settings,
+    /// [`Settings::free`] of its own speeds.
+    free: f64,
     here: LaneTraffic,
     there: LaneTraffic,
 }
@@ -181,7 +184,7 @@ struct Change<'a> {
 impl Change<'_> {
     /// Its own acceleration in a lane.
     fn own(&self, lane: LaneTraffic) -> f64 {
-        self.settings.acceleration(self.own.speed_mps, self.own.wanted_mps, lane.ahead)
+        self.settings.acceleration_with(self.free, self.own.speed_mps, lane.ahead)
     }
 
     /// A follower's acceleration behind a leader.
