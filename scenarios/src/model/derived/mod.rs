@@ -1,5 +1,6 @@
 //! Quantities derived from a scenario: conflict zones, lane widths, schedules, tasks, and the effect of the seed.
 
+pub(crate) mod known_records;
 pub(crate) mod narrowest_lane;
 pub(crate) mod script_contact;
 pub(crate) mod seed_dependence;
