@@ -87,11 +87,11 @@ fn each_group_is_judged_by_models_that_were_fitted_on_the_others() {
 #[test]
 fn the_driving_of_a_group_is_compared_with_that_of_the_first() {
     let folder = folder_with_queue("predict-driving", 6);
-    fs::write(folder.join("same.csv"), queue(6)).expect("it can be written");
-    let said = interplay(&folder, &["predict", "queue.csv", "same.csv", "--driving", "--json"]);
+    fs::write(folder.join("longer.csv"), queue(9)).expect("it can be written");
+    let said = interplay(&folder, &["predict", "queue.csv", "longer.csv", "--driving", "--json"]);
     assert_eq!(said.code, Some(0), "{said:?}");
     assert_eq!(said.json()["driving"].as_array().map(Vec::len), Some(2));
-    let text = interplay(&folder, &["predict", "queue.csv", "same.csv", "--driving"]);
+    let text = interplay(&folder, &["predict", "queue.csv", "longer.csv", "--driving"]);
     assert!(text.stdout.contains("How far from queue"), "{text:?}");
 }
 

@@ -53,9 +53,9 @@ def draw(clones, each, seed):
                 while queue and count < each:
                     path, place = queue.pop()
                     name, text = path.rsplit("/", 1)[-1], content(place)
-                    if name in names or b"<planningProblem" not in text or b"<commonRoad" not in text[:4096]:
+                    if name.split(".")[0] in names or b"<planningProblem" not in text or b"<commonRoad" not in text[:4096]:
                         continue
-                    names.add(name)
+                    names.add(name.split(".")[0])
                     drawn.append((kind, repository, name, text))
                     count += 1
                     break
