@@ -120,3 +120,25 @@ fn faults_of_samples_are_counted_and_attributed_to_their_flags() {
         }
     }
 }
+
+/// A pattern in a plan selects files as it selects scenarios of the binary, and none of other folders.
+#[test]
+fn a_pattern_of_a_plan_selects_files() {
+    let folder = scratch("sweep-pattern");
+    fs::create_dir_all(folder.join("streets/deeper")).expect("a folder");
+    let street = "extends = 'lane-keeping/nice'\nduration_s = 0.4\nexpect = {}\n";
+    for name in ["streets/a-1.toml", "streets/a-2.toml", "streets/b-1.toml", "streets/deeper/a-3.toml", "a-4.toml"] {
+        fs::write(folder.join(name), street).expect("a scratch file");
+    }
+    let swept = |pattern: &str| {
+        let plan = format!("scenario = ['{pattern}']\nplanner = ['idm']\n");
+        fs::write(folder.join("plan.toml"), plan).expect("a scratch file");
+        interplay(&folder, &["sweep", "plan.toml", "--dry-run"])
+    };
+    for (pattern, runs) in [("streets/a-*.toml", "2 runs"), ("*.toml", "1 run"), ("streets/*.toml", "3 runs")] {
+        let planned = swept(pattern);
+        assert!(planned.code == Some(0) && planned.stdout.contains(runs), "{pattern}: {planned:?}");
+    }
+    let refused = swept("streets/c-*.toml");
+    assert!(refused.code == Some(2) && refused.stderr.contains("streets/c-*.toml"), "{refused:?}");
+}

@@ -115,12 +115,10 @@ class Streets:
             self.smallest[kind, way, body] = high / 10
         return self.smallest[kind, way, body]
 
-    def from_m(self, kind: str, way: int, body: str, least_m: float) -> float:
+    def from_m(self, kind: str, way: int, body: str, least_m: float) -> float | None:
         """The first radius from one on, in tenths of a metre, without a remark."""
-        tenths = round(10 * least_m)
-        while not self.fits(kind, way, body, tenths) and tenths < 100 * MOST_M:
-            tenths += 2
-        return tenths / 10
+        tried = range(round(10 * least_m), int(10 * MOST_M) + 1, 2)
+        return next((tenths / 10 for tenths in tried if self.fits(kind, way, body, tenths)), None)
 
     def write(self, folder: Path):
         """All files; returns those that could not be made."""
@@ -133,7 +131,11 @@ class Streets:
                 for name, times in [("tight", 1.0), ("wide", KINDS[kind][4])]:
                     for number in range(self.options.count):
                         way = number % len(ways)
-                        text = alone(kind, way, number, body, self.from_m(kind, way, body, times * radii[way]))
+                        radius_m = self.from_m(kind, way, body, times * radii[way])
+                        if radius_m is None:
+                            refused.append((kind, number, body, name, f"no radius up to {MOST_M} m is without a remark"))
+                            continue
+                        text = alone(kind, way, number, body, radius_m)
                         (folder / f"alone_{kind}_{body}_{name}_{number}.toml").write_text(text)
                     for number in range(self.options.first, self.options.first + self.options.count):
                         if KINDS[kind][3] is None:
@@ -185,12 +187,13 @@ def main() -> int:
         print(f"not made: {kind} {number} {body} {name}: {said.splitlines()[0]}")
     plan = options.out / "long.toml"
     planners = json.dumps(options.drivers)
-    plan.write_text(f'title = "Long vehicles"\nscenario = ["files/*.toml"]\nplanner = {planners}\n')
+    plan.write_text(f'title = "Long vehicles"\nscenario = ["files"]\nplanner = {planners}\n')
     rows_folder = options.out / "rows"
     done = subprocess.run([options.binary, "sweep", plan, "--out", rows_folder, "--jobs", str(options.jobs)], stdout=subprocess.DEVNULL)
     if done.returncode not in (0, 1):
         return 2
-    tell([json.loads(line) for line in (rows_folder / "journal.jsonl").open()])
+    rows = [json.loads(line) for line in (rows_folder / "journal.jsonl").open()]
+    tell([row | ((row["result"] or {}).get("traffic") or {}) | {"planner": row["planner"]} for row in rows])
     return 2 if refused else 0
 
 

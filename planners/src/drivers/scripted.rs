@@ -46,7 +46,8 @@ pub struct Order {
     #[serde(default)]
     #[schemars(range(min = 0.0), example = 0.5)]
     pub acceleration_mps2: Option<f64>,
-    /// The lateral position on its road to drive to: on a road along x, a `y` \[m\].
+    /// The lateral position on its road to drive to: on a straight road whose lanes have numbers, a `y`; where lanes have names, from the
+    /// middle of the lane of its route, positive to the left \[m\].
     #[serde(default)]
     #[schemars(example = 0.555)]
     pub lateral_m: Option<f64>,

@@ -13,6 +13,8 @@ pub use plan_time::PlanTime;
 pub use planned_passing::{PassingSide, PlannedPassing};
 pub use violation::{PlanCondition, PlanViolation};
 
+use std::sync::Arc;
+
 use thiserror::Error;
 
 use crate::Trajectory;
@@ -44,7 +46,7 @@ pub struct Plan {
     pub events: Vec<PlanEvent>,
     /// The trajectory problem that the plan solves, so that it can be checked; `None` from a planner that optimises
     /// nothing.
-    pub problem: Option<Box<Problem>>,
+    pub problem: Option<Arc<Problem>>,
     /// The work of all optimisations behind the plan.
     pub statistics: Statistics,
 }

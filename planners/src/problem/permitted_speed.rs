@@ -20,6 +20,10 @@ const ROLLING_ON_SHARE: f64 = 0.5;
 /// Drivers come up to a line with this share of their strongest acceleration.
 const COMFORTABLE_ACCELERATION_SHARE: f64 = 0.5;
 
+/// Braking with which a driver lets a vehicle in that merges, until it is so much slower than it wants, of real vehicles \[m/s²\], \[m/s\].
+pub(crate) const COURTESY_MPS2: f64 = 1.0;
+pub(crate) const COURTESY_MPS: f64 = 3.0;
+
 /// No cap on the speed of a 1/10 scale car is lower \[m/s\].
 const CREEPING_MPS: f64 = 0.03;
 
@@ -100,10 +104,24 @@ impl Agent {
         step_s: f64,
     ) -> Vec<f64> {
         let permitted_mps = self.up_to_its_gap(permitted_mps, horizon, step_s);
+        let permitted_mps = self.letting_in(permitted_mps, wanted_mps, step_s);
         let Some(line_m) = self.rules.stop_line_m else { return permitted_mps };
         let approach_mps = self.approach_speeds_mps(line_m, wanted_mps, horizon, step_s);
         let permitted_mps = permitted_mps.into_iter().chain(std::iter::repeat(f64::INFINITY));
         permitted_mps.zip(approach_mps).map(|(limit_mps, speed_mps)| speed_mps.min(limit_mps)).collect()
+    }
+
+    /// The same, lowered a little where it lets another vehicle in.
+    fn letting_in(&self, permitted_mps: Vec<f64>, wanted_mps: f64, step_s: f64) -> Vec<f64> {
+        if !self.rules.lets_in {
+            return permitted_mps;
+        }
+        let least_mps = wanted_mps - COURTESY_MPS * self.body.real_ratio().sqrt();
+        let lowered = permitted_mps.into_iter().enumerate().map(|(stage, permitted_mps)| {
+            let reached_mps = self.state.speed_mps - COURTESY_MPS2 * step_s * (stage + 1) as f64;
+            permitted_mps.min(least_mps.max(reached_mps))
+        });
+        lowered.collect()
     }
 
     /// The same, lowered until there is room to merge to the speed with which it comes there then, in comfort.

@@ -10,9 +10,9 @@
 //! ```
 //!
 //! where `x` is how far a front is beyond the meeting, and `b` what the one behind may have to brake. Where no gap is long enough, it takes
-//! the one that lacks least behind, of those that it reaches after at most `2 t₀`: it does not become slow for vehicles far behind. Until
-//! it would not be too early it keeps its speed, or drives with `d/t` where that is less. So it slows down early and a little, and joins
-//! with `v = v₀ + √(2 a (d − v₀ t))` if it keeps `v₀`.
+//! the one that lacks least behind, of those that it reaches soon or without becoming slow ([`latest_s`]), and the one behind lets it in:
+//! it slows down a little. Until it would not be too early it keeps its speed, or drives with `d/t` where that is less. So it slows down
+//! early and a little, and joins with `v = v₀ + √(2 a (d − v₀ t))` if it keeps `v₀`.
 
 use super::obliged::Obliged;
 use crate::Agent;
@@ -26,8 +26,10 @@ const BESIDE_RAD: f64 = 0.2;
 const BACK_RAD: f64 = 0.01;
 /// A gap behind a vehicle slower than this is not waited for, of real vehicles \[m/s\].
 const LEAST_MPS: f64 = 1.0;
-/// Where there is an earlier gap, one that takes more than this many times as long as the way without others is not waited for.
-const MOST_TIMES: f64 = 2.0;
+/// Where there is an earlier gap, one is not waited for that takes more than this time longer than the way without others, of real
+/// vehicles \[s\], and that on the way asks for less than this share of the speed of those in the lane that is joined.
+const WAITED_S: f64 = 3.0;
+const SLOWEST_SHARE: f64 = 0.5;
 /// A vehicle becomes faster with this share of its strongest acceleration: cars with 1.2 m/s², about as drivers and the intelligent driver
 /// model do at 20 m/s.
 const GAINING_SHARE: f64 = 0.4;
@@ -54,6 +56,33 @@ struct Passing<'a> {
 
 /// When and behind whom a vehicle merges; `None` where it joins no way from beside, and where it need not wait for anybody.
 pub(super) fn merging(user: &Obliged<'_>, users: &[Obliged<'_>]) -> Option<Merging> {
+    let Gap { ahead, in_s, free_s, meeting_m, .. } = best_gap(user, users)?;
+    let ahead = ahead.filter(|_| in_s > free_s)?;
+    Some(Merging { behind: ahead.name.clone(), meeting_m, in_s })
+}
+
+/// Which of some road users are asked to let one in that merges, because the gap before them is too short.
+pub(super) fn let_in(users: &[Obliged<'_>]) -> Vec<bool> {
+    let gaps = users.iter().filter(|user| user.is_judged()).filter_map(|user| best_gap(user, users));
+    let asked: Vec<&str> =
+        gaps.filter(|gap| gap.spare_m < 0.0).filter_map(|gap| gap.behind).map(|behind| behind.name.as_str()).collect();
+    users.iter().map(|user| asked.contains(&user.agent.name.as_str())).collect()
+}
+
+/// The gap into which a vehicle merges.
+struct Gap<'a> {
+    ahead: Option<&'a Agent>,
+    behind: Option<&'a Agent>,
+    /// When it merges, and when it would without others \[s\].
+    in_s: f64,
+    free_s: f64,
+    /// By how much there is more room behind than there has to be \[m\].
+    spare_m: f64,
+    /// Where the ways meet \[m\].
+    meeting_m: f64,
+}
+
+fn best_gap<'a>(user: &Obliged<'_>, users: &[Obliged<'a>]) -> Option<Gap<'a>> {
     let ego = user.agent;
     let front_m = front_m(ego);
     let others = users.iter().map(|other| other.agent).filter(|other| other.name != ego.name);
@@ -65,24 +94,23 @@ pub(super) fn merging(user: &Obliged<'_>, users: &[Obliged<'_>]) -> Option<Mergi
     if way_m <= 0.0 || free_s > EARLY_S * ego.body.real_ratio().sqrt() {
         return None;
     }
-    let mut best: Option<(f64, Option<&Passing<'_>>, f64)> = None;
+    let mut best: Option<Gap<'a>> = None;
     for gap in 0..=passing.len() {
         let ahead = gap.checked_sub(1).map(|ahead| &passing[ahead]);
         let Some(in_s) = earliest_s(ego, ahead, free_s, way_m) else { continue };
-        if best.is_some() && in_s > MOST_TIMES * free_s {
+        if best.is_some() && in_s > latest_s(ego, ahead, free_s, way_m) {
             break;
         }
         let spare_m = spare_behind_m(ego, passing.get(gap), in_s, way_m);
-        if best.is_none_or(|(most_m, ..)| spare_m > most_m) {
-            best = Some((spare_m, ahead, in_s));
+        if best.as_ref().is_none_or(|best| spare_m > best.spare_m) {
+            let [ahead, behind] = [ahead, passing.get(gap)].map(|other| other.map(|passing| passing.agent));
+            best = Some(Gap { ahead, behind, in_s, free_s, spare_m, meeting_m });
         }
         if spare_m >= 0.0 {
             break;
         }
     }
-    let (_, ahead, in_s) = best.filter(|(.., in_s)| *in_s > free_s)?;
-    let ahead = ahead?;
-    Some(Merging { behind: ahead.agent.name.clone(), meeting_m, in_s })
+    best
 }
 
 fn passing<'a>(ego: &Agent, other: &'a Agent, own_front_m: f64) -> Option<Passing<'a>> {
@@ -110,6 +138,13 @@ fn earliest_s(ego: &Agent, ahead: Option<&Passing<'_>>, free_s: f64, way_m: f64)
         return Some(free_s);
     }
     (speed_mps > LEAST_MPS * ratio.sqrt()).then(|| needed_m / speed_mps)
+}
+
+/// Until when a gap behind a vehicle is waited for \[s\]: who becomes slow for its gap needs a longer one.
+fn latest_s(ego: &Agent, ahead: Option<&Passing<'_>>, free_s: f64, way_m: f64) -> f64 {
+    let slowest_mps = ahead.map_or(0.0, |ahead| SLOWEST_SHARE * ahead.agent.state.speed_mps);
+    let at_slowest_s = if slowest_mps > 0.0 { way_m / slowest_mps } else { 0.0 };
+    at_slowest_s.max(free_s + WAITED_S * ego.body.real_ratio().sqrt())
 }
 
 /// By how much the gap to the vehicle behind is longer than it has to be for one that joins in some time, so that it need not brake much

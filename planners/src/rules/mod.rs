@@ -73,8 +73,11 @@ impl RuleBook {
         let time_s = tick as f64 * step_s;
         let mut order = Order::of(&self.arrivals, users, time_s);
         waiting::release(&mut order.holds, &order.turns);
-        let asked = |(user, holds): (&Obliged<'_>, &Vec<Hold>)| asked(&self.arrivals, user, users, holds, time_s);
-        users.iter().zip(&order.holds).map(asked).collect()
+        let asked = |(vehicle, user): (usize, &Obliged<'_>)| {
+            let asked = asked(&self.arrivals, user, users, &order.holds[vehicle], time_s);
+            RoadRules { lets_in: order.lets_in(vehicle), ..asked }
+        };
+        users.iter().enumerate().map(asked).collect()
     }
 
     /// What is asked of one road user, number `vehicle` of `users`, who observed the others some time ago and knows its own present:
@@ -97,7 +100,7 @@ impl RuleBook {
             waiting::release(&mut holds, &turns);
             held = holds.swap_remove(vehicle);
         }
-        asked(&self.arrivals, user, users, &held, seen_s)
+        RoadRules { lets_in: order.lets_in(vehicle), ..asked(&self.arrivals, user, users, &held, seen_s) }
     }
 
     /// What has been noted of arrivals so far.
@@ -152,6 +155,8 @@ pub(crate) struct Order {
     lights_m: Vec<Option<f64>>,
     holds: Vec<Vec<Hold>>,
     turns: Vec<Option<(usize, f64)>>,
+    /// Which of them let one in that merges.
+    let_in: Vec<bool>,
 }
 
 impl Order {
@@ -161,7 +166,11 @@ impl Order {
         let held = |vehicle: usize| held([arrivals; 2], users, vehicle, &lights_m);
         let holds = (0..users.len()).map(held).collect();
         let turns = users.iter().map(|user| arrivals.turn(user.agent)).collect();
-        Order { lights_m, holds, turns }
+        Order { lights_m, holds, turns, let_in: merging::let_in(users) }
+    }
+
+    fn lets_in(&self, vehicle: usize) -> bool {
+        self.let_in.get(vehicle).is_some_and(|lets_in| *lets_in)
     }
 }
 

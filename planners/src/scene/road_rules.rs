@@ -75,6 +75,8 @@ pub struct RoadRules {
     pub follows: Option<Followed>,
     /// When it may be where it joins the way of others from the lane beside; none if nothing holds it.
     pub merging: Option<Merging>,
+    /// Whether it slows down a little for one that merges ahead of it, whose gap is too short.
+    pub lets_in: bool,
     /// Whom it waits for there; empty where a sign alone holds it.
     pub waits_for: Vec<String>,
 }

@@ -40,8 +40,8 @@ pub fn names_matching(entry: &str) -> Vec<String> {
     found
 }
 
-/// The scenarios of an entry: an embedded scenario, a pattern with `*` or a family of them, streets, a file, or all .toml files below
-/// a folder, sorted by name. Paths are relative to `folder`.
+/// The scenarios of an entry: an embedded scenario, a pattern with `*` or a family of them, streets, a file, a pattern of files, or all
+/// scenarios below a folder, sorted by name. Paths are relative to `folder`.
 pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<NamedScenario>, Fault> {
     let found = names_matching(entry);
     if !found.is_empty() {
@@ -49,19 +49,20 @@ pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<Name
     }
     let path = folder.join(entry);
     if path.is_dir() {
-        let unreadable = |reason: std::io::Error| {
-            Fault::at(place, "unreadable", format!("cannot read folder {}: {reason}", quoted(entry)))
-        };
-        let files = files_below(&path).map_err(unreadable)?;
-        let files: Vec<PathBuf> = files.scenarios.into_iter().map(|scenario| scenario.path).collect();
+        let files = files_of(&path, entry, place)?;
         if files.is_empty() {
             return Err(Fault::at(place, "empty", format!("folder {} contains no scenario", quoted(entry))));
         }
-        if let Some(file) = files.iter().find(|file| file.to_str().is_none()) {
-            let message = format!("the name of {} is not UTF-8 text", quoted(&file.display().to_string()));
-            return Err(Fault::at(place, "a file in this folder", message).help("rename the file"));
-        }
         return Ok(files.iter().map(|file| in_folder(file, &path)).collect());
+    }
+    if let Some(star) = entry.find('*') {
+        let base = entry[..star].rsplit_once('/').map_or(folder.to_owned(), |(base, _)| folder.join(base));
+        let wanted = path.to_string_lossy();
+        let mut files = if base.is_dir() { files_of(&base, entry, place)? } else { Vec::new() };
+        files.retain(|file| fits(&wanted, &file.to_string_lossy()));
+        if !files.is_empty() {
+            return Ok(files.iter().map(|file| in_folder(file, &base)).collect());
+        }
     }
     if path.is_file() {
         let name = path.file_stem().map_or_else(|| entry.to_owned(), |stem| stem.to_string_lossy().into_owned());
@@ -83,6 +84,22 @@ fn embedded_scenario(name: String) -> NamedScenario {
     let family = if is_street { name.rsplit_once('/') } else { name.split_once('/') };
     let family = family.map_or(&*name, |(family, _)| family).to_owned();
     NamedScenario { family, source: name.clone(), name }
+}
+
+/// The files of scenarios below a folder that an entry names.
+fn files_of(path: &Path, entry: &str, place: &Place) -> Result<Vec<PathBuf>, Fault> {
+    let unreadable = |reason: std::io::Error| {
+        Fault::at(place, "unreadable", format!("cannot read folder {}: {reason}", quoted(entry)))
+    };
+    let files = files_below(path).map_err(unreadable)?;
+    let files: Vec<PathBuf> = files.scenarios.into_iter().map(|scenario| scenario.path).collect();
+    match files.iter().find(|file| file.to_str().is_none()) {
+        None => Ok(files),
+        Some(file) => {
+            let message = format!("the name of {} is not UTF-8 text", quoted(&file.display().to_string()));
+            Err(Fault::at(place, "a file in this folder", message).help("rename the file"))
+        }
+    }
 }
 
 fn in_folder(file: &Path, folder: &Path) -> NamedScenario {

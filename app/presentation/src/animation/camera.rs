@@ -1,5 +1,6 @@
 //! The sizes of animated pictures, and the camera view of each.
 
+use super::flow;
 use super::scene::DrivingRun;
 use super::timing::{PICTURE_S, PictureTime};
 use crate::camera::{self, CameraFrame, ViewFormat};
@@ -23,6 +24,9 @@ const FORMAT: ViewFormat = ViewFormat {
 
 /// One view per picture; all have the same height.
 pub fn views(run: &DrivingRun, moments: &[PictureTime]) -> Vec<CameraView> {
+    if run.scenario.is_flow_alone() {
+        return vec![flow::view(run.scenario, &run.frames, &FORMAT); moments.len()];
+    }
     let moments: Vec<CameraFrame> = moments.iter().map(|moment| camera_frame(run, moment.time_s)).collect();
     camera::views(run.scenario, &moments, &FORMAT)
 }

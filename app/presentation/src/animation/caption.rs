@@ -54,7 +54,8 @@ pub fn caption(run: &DrivingRun, time_s: f64) -> Caption {
         let [one, other] = &hit.between;
         return Caption { first: format!("{one} and {other} collide"), second, alarms: true };
     }
-    let first = request(run, frame).or_else(|| intention(run, frame)).unwrap_or_default();
+    let is_told = !run.scenario.is_flow_alone();
+    let first = is_told.then(|| request(run, frame).or_else(|| intention(run, frame))).flatten().unwrap_or_default();
     // An event that the first line already contains is left out.
     let words: Vec<&str> = first.split([' ', ',']).collect();
     let is_in_first = |does: &str| does.split(' ').all(|word| words.contains(&word));

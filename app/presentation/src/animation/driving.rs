@@ -7,6 +7,7 @@ use super::canvas::{Align, Canvas, Ink, LineEnd};
 use super::caption::{
     BAR, Caption, MARGIN_PX, TEXT_PX, TITLE_PX, WORDS, caption, contacts, draw_edge_mark, draw_title,
 };
+use super::legend::{self, LegendRow};
 use super::letters::{cut, width_of};
 use super::pictures::{Pictures, Rgb};
 use super::scene::{DrivingRun, SeenVehicle};
@@ -27,7 +28,7 @@ const MIN_RIBBON_RATIO: f64 = 1.5;
 /// Height of a line of words below the view \[px\].
 const LINE_PX: f64 = 22.0;
 /// Size of small words \[px\].
-const LABEL_PX: f64 = 14.0;
+const LABEL_PX: f64 = legend::TEXT_PX;
 /// Rows of the legend of a crowd, which lists the coloured vehicles.
 const CROWD_LEGEND_ROWS: usize = 3;
 /// Width of the line of an alternative continuation of a plan \[px\].
@@ -56,7 +57,11 @@ impl<'a> DrivingPictures<'a> {
         })?;
         let road = RoadShapes::trace(run.scenario, bounds);
         let driven: Vec<usize> = run.driven().collect();
-        let legend = if driven.len() > OTHERS.len() + 1 { Vec::new() } else { legend(&run, &driven) };
+        let legend = match driven.len() {
+            _ if run.scenario.is_flow_alone() => legend::of_flows(run.scenario, &driven),
+            count if count > OTHERS.len() + 1 => Vec::new(),
+            _ => legend::of_vehicles(run.scenario, &driven),
+        };
         let key = key(&run, &moments);
         Some(DrivingPictures { run, moments, views, road, legend, key })
     }
@@ -78,13 +83,13 @@ impl<'a> DrivingPictures<'a> {
         road::draw_lights(&self.road, canvas, view, time_s);
         let lane_px = self.run.scenario.road.lane_width_m() * view.px_per_m;
         for (vehicle, seen) in self.run.scenario.vehicles.iter().zip(seen).filter(|(_, seen)| !seen.is_absent) {
-            if is_ribbon(&seen.plan, &vehicle.body) && !seen.is_unnamed() {
+            if is_ribbon(&seen.plan, &vehicle.body) && seen.is_named {
                 let plan: Vec<[f64; 2]> = seen.plan.iter().map(|point| view.place(*point)).collect();
                 let width = (0.55 * vehicle.body.width_m * view.px_per_m).min(0.3 * lane_px);
                 ribbon::draw(canvas, &plan, width, seen.plan_colour);
             }
         }
-        for seen in seen.iter().filter(|seen| !seen.is_unnamed()) {
+        for seen in seen.iter().filter(|seen| seen.is_named) {
             for branch in &seen.branches {
                 let line: Vec<[f64; 2]> = branch.iter().map(|point| view.place(*point)).collect();
                 canvas.line(&line, BRANCH_PX, LineEnd::Round, Ink::translucent(seen.colour, 1.0));
@@ -152,7 +157,7 @@ impl<'a> DrivingPictures<'a> {
         mut taken: Vec<Rectangle>,
     ) {
         for (index, vehicle) in self.run.scenario.vehicles.iter().enumerate() {
-            let is_unnamed = seen[index].is_unnamed() && !mentioned.contains(&index);
+            let is_unnamed = !seen[index].is_named && !mentioned.contains(&index);
             if vehicle.obstacle.is_some() || seen[index].is_absent || is_unnamed {
                 continue;
             }
@@ -199,9 +204,9 @@ impl<'a> DrivingPictures<'a> {
     fn crowd_legend(&self, seen: &[SeenVehicle]) -> Vec<LegendRow> {
         // Entries are in the order of the colours, so that each keeps its position while others change.
         let place = |index: &usize| OTHERS.iter().position(|colour| colour.rgb == seen[*index].colour);
-        let mut listed: Vec<usize> = self.run.driven().filter(|index| !seen[*index].is_unnamed()).collect();
+        let mut listed: Vec<usize> = self.run.driven().filter(|index| seen[*index].is_named).collect();
         listed.sort_by_key(place);
-        let mut rows = legend(&self.run, &listed);
+        let mut rows = legend::of_vehicles(self.run.scenario, &listed);
         rows.truncate(CROWD_LEGEND_ROWS);
         rows
     }
@@ -223,7 +228,7 @@ impl<'a> DrivingPictures<'a> {
                 let ring = [[*left, y - 5.5], [left + 17.0, y - 5.5], [left + 17.0, y + 5.5], [*left, y + 5.5]];
                 canvas.fill_rounded(&ring, 4.0, seen[*index].colour);
                 let speed = match &seen[*index] {
-                    seen if seen.is_absent => words.clone(),
+                    seen if seen.is_absent || !seen.is_named => words.clone(),
                     seen => format!("{words} {:.1} m/s", seen.state.speed_mps.abs()),
                 };
                 canvas.text([left + 23.0, y], Align::Left, LABEL_PX, &speed, WORDS);
@@ -248,7 +253,7 @@ impl Pictures for DrivingPictures<'_> {
         let mut ground = Canvas::new([WIDTH_PX as u32, view.size_px[1] as u32], GRASS)?;
         let words = caption(&self.run, moment.time_s);
         let mut mentioned = self.run.partners(moment.time_s);
-        mentioned.retain(|index| !seen[*index].is_unnamed());
+        mentioned.retain(|index| seen[*index].is_named);
         mentioned.extend(
             words
                 .mentioned(self.run.scenario)
@@ -277,7 +282,7 @@ impl Pictures for DrivingPictures<'_> {
 fn key(run: &DrivingRun, moments: &[PictureTime]) -> String {
     let seen: Vec<SeenVehicle> = moments.iter().flat_map(|moment| run.seen(moment.time_s, 0.0)).collect();
     let is_ribbon = |(index, seen): (usize, &SeenVehicle)| {
-        is_ribbon(&seen.plan, &run.scenario.vehicles[index % run.scenario.vehicles.len()].body)
+        seen.is_named && is_ribbon(&seen.plan, &run.scenario.vehicles[index % run.scenario.vehicles.len()].body)
     };
     [
         (seen.iter().enumerate().any(is_ribbon), "band: plan"),
@@ -296,29 +301,6 @@ fn is_ribbon(plan: &[[f64; 2]], body: &Body) -> bool {
     let Some([x, y]) = plan.first() else { return false };
     let least_m = MIN_RIBBON_RATIO * (body.front_m + body.rear_m);
     plan.iter().any(|point| libm::hypot(point[0] - x, point[1] - y) > least_m)
-}
-
-/// A row of the legend: index, text and left end \[px\] of each entry.
-type LegendRow = Vec<(usize, String, f64)>;
-
-/// The rows of a legend with names and drivers of some vehicles.
-fn legend(run: &DrivingRun, listed: &[usize]) -> Vec<LegendRow> {
-    let mut rows: Vec<LegendRow> = vec![Vec::new()];
-    let mut left = MARGIN_PX;
-    for index in listed.iter().copied() {
-        let vehicle = &run.scenario.vehicles[index];
-        let words = format!("{}: {}", vehicle.name, vehicle.driver.description());
-        let wide = 23.0 + width_of(&format!("{words} 00.0 m/s"), LABEL_PX) + 20.0;
-        if left + wide > WIDTH_PX && left > MARGIN_PX {
-            rows.push(Vec::new());
-            left = MARGIN_PX;
-        }
-        if let Some(row) = rows.last_mut() {
-            row.push((index, words, left));
-        }
-        left += wide;
-    }
-    rows
 }
 
 /// Points at equal distances along a line.

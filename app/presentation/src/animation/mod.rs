@@ -16,6 +16,8 @@ mod chart;
 mod driving;
 mod encode;
 mod file;
+mod flow;
+mod legend;
 mod letters;
 mod pictures;
 mod ribbon;

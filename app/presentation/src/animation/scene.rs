@@ -4,6 +4,7 @@ use interplay_planners::State;
 use interplay_scenarios::Scenario;
 use interplay_simulation::frame::{Frame, Origin, VehicleFrame};
 
+use super::flow;
 use super::timing::RunTimes;
 use crate::camera::{car_m, partners};
 use crate::figures::RecordedRun;
@@ -23,6 +24,8 @@ const NEAR_CARS: f64 = 30.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenVehicle {
     pub colour: Colour,
+    /// Whether it has a name and a plan in pictures; in a crowd, only those near the ego have.
+    pub is_named: bool,
     /// Whether it is not on the road.
     pub is_absent: bool,
     pub state: State,
@@ -58,13 +61,6 @@ pub struct DrivingRun<'a> {
     until_s: Option<f64>,
 }
 
-impl SeenVehicle {
-    /// Whether it is a vehicle of a crowd that is too far from the ego to be named.
-    pub fn is_unnamed(&self) -> bool {
-        self.colour == UNNAMED
-    }
-}
-
 impl<'a> DrivingRun<'a> {
     /// Indices of the vehicles that have a driver.
     pub fn driven(&self) -> impl Iterator<Item = usize> + '_ {
@@ -88,10 +84,14 @@ impl<'a> DrivingRun<'a> {
         Some(DrivingRun { scenario, colours, frames, requests, end, until_s: recorded.shown_until_s })
     }
 
-    /// Whether a vehicle is named at a tick. In a crowd, only vehicles near the ego are.
+    /// Whether a vehicle is named at a tick. In a crowd, only vehicles near the ego are, and none where all are of flows.
     pub fn is_named(&self, frame: &Frame, vehicle: &str) -> bool {
         let index = self.scenario.index_of(vehicle);
-        index.is_none_or(|index| self.colours[self.tick(frame.time_s)][index] != UNNAMED)
+        index.is_none_or(|index| self.names(self.tick(frame.time_s), index))
+    }
+
+    fn names(&self, tick: usize, vehicle: usize) -> bool {
+        !self.scenario.is_flow_alone() && self.colours[tick][vehicle] != UNNAMED
     }
 
     /// The colours that vehicles have at some tick.
@@ -110,7 +110,7 @@ impl<'a> DrivingRun<'a> {
             end_s: self.end_s(),
             settled_s: self.settled_s(),
             until_s: self.until_s,
-            is_flow: self.scenario.is_crowd() && self.scenario.ego().is_some_and(|ego| ego.stay.leaves_at_end),
+            is_flow: self.scenario.is_flow_alone(),
             time_ratio,
         }
     }
@@ -180,6 +180,7 @@ impl<'a> DrivingRun<'a> {
             let colour = self.colours[tick][index];
             SeenVehicle {
                 colour,
+                is_named: self.names(tick, index),
                 is_absent: vehicle.is_absent,
                 state,
                 steering_rad: vehicle.input.steering_rad,
@@ -245,9 +246,12 @@ fn positions_ahead(states: &[State], now: &State) -> Vec<[f64; 2]> {
 /// A vehicle keeps its colour while it is among this many nearest to the ego, so that colours do not flicker.
 const KEPT_AMONG: usize = OTHERS.len() + 3;
 
-/// The colour of each vehicle at each tick. With more vehicles than colours, those nearest to the ego have one, and all others are
-/// [`UNNAMED`].
+/// The colour of each vehicle at each tick: that of its flow where all are of flows. Otherwise, with more vehicles than colours, those
+/// nearest to the ego have one, and all others are [`UNNAMED`].
 pub fn colours(scenario: &Scenario, frames: &[&Frame]) -> Vec<Vec<Colour>> {
+    if scenario.is_flow_alone() {
+        return vec![flow::colours(scenario); frames.len()];
+    }
     let usual: Vec<Colour> = vehicle_colours(scenario).into_iter().map(|colour| colour.rgb).collect();
     let ego = scenario.ego_index();
     let is_other = |index: usize| index != ego && scenario.vehicles[index].obstacle.is_none();

@@ -41,7 +41,7 @@ pub struct RunTimes {
     pub settled_s: Option<f64>,
     /// The stated end of the animation \[s\].
     pub until_s: Option<f64>,
-    /// Whether the ego is one of many vehicles that come and go.
+    /// Whether the ego is only the first vehicle of a flow.
     pub is_flow: bool,
     /// Factor of times at 1/10 scale.
     pub time_ratio: f64,

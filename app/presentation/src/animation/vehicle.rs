@@ -15,6 +15,10 @@ use interplay_planners::scene::IndicatorSide;
 
 /// Least width of a pedestrian \[px\].
 const LEAST_WALKER_PX: f64 = 7.0;
+/// A shorter vehicle is drawn without its parts \[px\].
+const LEAST_PARTS_PX: f64 = 16.0;
+/// Least length and width of a vehicle from afar \[px\].
+const FROM_AFAR_PX: [f64; 2] = [8.0, 4.0];
 const SHADOW: Colour = [0x1B, 0x1D, 0x20];
 const SKIN: Colour = [0xE8, 0xC3, 0xA0];
 
@@ -66,6 +70,10 @@ pub fn draw(canvas: &mut Canvas, view: &CameraView, vehicle: &Vehicle, seen: &Se
     }
     let placed = Placed { body: &vehicle.body, state: &seen.state, view };
     let style = BodyStyle::choose(vehicle);
+    let length = placed.px(vehicle.body.front_m + vehicle.body.rear_m);
+    if length < LEAST_PARTS_PX && !matches!(style, BodyStyle::Plain | BodyStyle::Walker | BodyStyle::Bicycle) {
+        return draw_from_afar(canvas, &placed, colour);
+    }
     match style {
         BodyStyle::Bicycle => return draw_bicycle(canvas, &placed, seen, colour),
         BodyStyle::Walker => return draw_walker(canvas, &placed, colour),
@@ -146,6 +154,13 @@ fn draw_walker(canvas: &mut Canvas, placed: &Placed, colour: Colour) {
     canvas.disc(middle, 0.2 * width, darker(colour));
 }
 
+/// Draws a vehicle whose parts are too small to be seen.
+fn draw_from_afar(canvas: &mut Canvas, placed: &Placed, colour: Colour) {
+    let half_m = [0.5 * (placed.body.front_m + placed.body.rear_m), 0.5 * placed.body.width_m];
+    let [ahead, beside] = [0, 1].map(|axis| (0.5 * FROM_AFAR_PX[axis] / placed.px(half_m[axis])).max(1.0));
+    canvas.fill_rounded(&placed.rectangle([-ahead, ahead, -beside, beside]), 1.5, colour);
+}
+
 /// Draws an obstacle as its outline.
 fn draw_outline(canvas: &mut Canvas, placed: &Placed, vehicle: &Vehicle, colour: Colour) {
     let corners = vehicle.outline().map(Outline::corners_m).unwrap_or_default();
@@ -206,6 +221,7 @@ mod tests {
     fn standing() -> SeenVehicle {
         SeenVehicle {
             colour: [10, 200, 30],
+            is_named: true,
             is_absent: false,
             state: State { x_m: 3.0, y_m: 1.0, heading_rad: 0.4, speed_mps: 1.0 },
             steering_rad: 0.0,

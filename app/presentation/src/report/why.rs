@@ -64,7 +64,8 @@ fn conclusion(report: &WhyReport) -> String {
         sentences.push(format!("It does not depend on {}.", grouped(&report.order_does_not_depend_on, "or")));
     }
     if !report.times_depend_on.is_empty() {
-        sentences.push(format!("The times of arrival depend on {} too.", grouped(&report.times_depend_on, "and")));
+        let too = if report.order_depends_on.is_empty() { "" } else { " too" };
+        sentences.push(format!("The times of arrival depend on {}{too}.", grouped(&report.times_depend_on, "and")));
     }
     sentences.extend(match report.expectations_depend_on.as_slice() {
         [] => None,

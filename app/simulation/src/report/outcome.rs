@@ -132,7 +132,6 @@ pub struct VehicleReport {
     #[serde(flatten)]
     pub metrics: MetricValues,
     /// The reasons for which it stood although it wanted to drive, with durations.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub standing: Vec<Wait>,
     /// Its planner.
     pub plans: PlansReport,

@@ -18,6 +18,8 @@ mod settings;
 mod signal;
 mod value;
 
+use std::sync::Arc;
+
 pub use belief::PersuasionBelief;
 pub use settings::{ReplyValue, Settings};
 pub use signal::problem;
@@ -121,7 +123,7 @@ impl Drive for Bayesian {
         }
         self.last = Some(trajectory.clone());
         let events = choice.event("persuades", "to persuade").into_iter().chain(event).collect();
-        let (problem, statistics) = (Some(Box::new(problem)), optimum.statistics);
+        let (problem, statistics) = (Some(Arc::new(problem)), optimum.statistics);
         Ok(Plan { trajectory, diagnostics, events, problem, statistics, ..Plan::default() })
     }
 

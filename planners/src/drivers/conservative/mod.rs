@@ -8,6 +8,8 @@ mod fallback;
 mod settings;
 
 pub(crate) use fallback::{fall_back, solve_or_fall_back};
+use std::sync::Arc;
+
 pub use settings::Settings;
 
 use crate::drivers::drive::StandardReplacement;
@@ -133,7 +135,7 @@ pub(crate) fn answer(Solved { problem, optimum, event }: Solved) -> Plan {
         trajectory: optimum.trajectory(0),
         diagnostics,
         events: event.into_iter().collect(),
-        problem: Some(Box::new(problem)),
+        problem: Some(Arc::new(problem)),
         statistics: optimum.statistics,
         ..Plan::default()
     }

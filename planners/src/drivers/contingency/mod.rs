@@ -18,6 +18,8 @@ pub mod diagnostics;
 mod futures;
 mod settings;
 
+use std::sync::Arc;
+
 pub use futures::{Future, futures, shared_steps};
 pub use settings::Settings;
 
@@ -166,7 +168,7 @@ fn answer(problem: Problem, futures: &[Future], likeliest: usize, optimum: &Opti
         trajectory: optimum.trajectory(likeliest),
         branches: branches.collect(),
         diagnostics,
-        problem: Some(Box::new(problem)),
+        problem: Some(Arc::new(problem)),
         statistics: optimum.statistics,
         ..Plan::default()
     }

@@ -22,6 +22,8 @@
 pub mod diagnostics;
 mod settings;
 
+use std::sync::Arc;
+
 pub use settings::Settings;
 
 use crate::drivers::conservative;
@@ -139,7 +141,7 @@ impl Drive for Cooperative {
                 self.last = parts.map(|(i, part)| (part.agent.name.clone(), optimum.trajectory(i))).collect();
                 let answer = self.answer(&problem, &optimum, own);
                 let events = self.remark(scene, cooperators.len()).into_iter().collect();
-                Ok(Plan { problem: Some(Box::new(problem)), events, ..answer })
+                Ok(Plan { problem: Some(Arc::new(problem)), events, ..answer })
             }
             Err(error) => {
                 let last = std::mem::take(&mut self.last);

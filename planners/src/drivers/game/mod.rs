@@ -25,6 +25,8 @@ pub mod payoff;
 pub mod prospect;
 mod settings;
 
+use std::sync::Arc;
+
 pub use settings::{ExpressedBounds, ExpressedSpeed, GameForm, Settings, SolutionConcept};
 
 use serde_json::{Map, Value as Json, json};
@@ -168,7 +170,7 @@ impl Drive for Game {
         let trajectory = optimum.trajectory(0);
         self.last = Some(trajectory.clone());
         let events = choice.event("plays the game with", "to play with").into_iter().chain(event).collect();
-        let (problem, statistics) = (Some(Box::new(problem)), optimum.statistics);
+        let (problem, statistics) = (Some(Arc::new(problem)), optimum.statistics);
         Ok(Plan { trajectory, diagnostics, events, problem, statistics, ..Plan::default() })
     }
 

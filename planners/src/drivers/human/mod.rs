@@ -234,7 +234,7 @@ impl Drive for Human {
         Ok(Plan {
             trajectory,
             diagnostics: vec![diagnostics::SAFETY_WEIGHT.is(self.settings.weight())],
-            problem: Some(Box::new(problem)),
+            problem: Some(Arc::new(problem)),
             statistics: optimum.statistics,
             ..Plan::default()
         })

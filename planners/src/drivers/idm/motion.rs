@@ -3,6 +3,7 @@
 use super::Settings;
 use crate::drivers::lanes::{Leader, RoadLanes, leader};
 use crate::prediction::steering::{admissible, roll_out, steer, steer_over_step};
+use crate::problem::permitted_speed::{COURTESY_MPS, COURTESY_MPS2};
 use crate::rules::obstacle::swing_m;
 use crate::scene::road_rules::Obstacle;
 use crate::{Agent, Input, Scene, State, Trajectory};
@@ -15,11 +16,6 @@ const AIM: f64 = 1.1;
 
 /// Distance that a driver looks ahead, as a multiple of the way on which comfortable braking builds up.
 const LOOKING_AHEAD: f64 = 0.75;
-
-/// Braking with which a driver lets a vehicle in that has to let it go first, until it is so much slower than it wants, of real vehicles
-/// \[m/s²\], \[m/s\].
-const COURTESY_MPS2: f64 = 1.0;
-const COURTESY_MPS: f64 = 3.0;
 
 /// Time in which it comes to the speed at which it waits for its gap, of real vehicles \[s\].
 const MERGING_S: f64 = 1.5;

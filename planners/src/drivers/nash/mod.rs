@@ -14,6 +14,8 @@ mod prioritised;
 mod refusals;
 mod settings;
 
+use std::sync::Arc;
+
 pub use deviation::TOLERATED_GAIN;
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use settings::Settings;
@@ -171,7 +173,7 @@ impl Nash {
             proposals,
             diagnostics,
             events: event.into_iter().collect(),
-            problem: Some(Box::new(problem)),
+            problem: Some(Arc::new(problem)),
             statistics: optimum.statistics,
             ..Plan::default()
         }

@@ -27,6 +27,8 @@ mod references;
 mod settings;
 mod state;
 
+use std::sync::Arc;
+
 pub use acceptance::Acceptance;
 pub use persuasion::persuasion;
 pub use proposal::{AskedPartner, optimiser, problem};
@@ -176,7 +178,7 @@ impl Drive for Negotiation {
         plan.diagnostics.extend(optimum.runner_up_cost.map(|cost| RUNNER_UP_COST.is(cost)));
         plan.diagnostics.extend(Activity::count(&problem, &optimum.iterate, 0).diagnostics());
         plan.events = events;
-        plan.problem = Some(Box::new(problem));
+        plan.problem = Some(Arc::new(problem));
         self.filter(scene, &fallback, &optimum, &mut plan);
         Ok(plan)
     }

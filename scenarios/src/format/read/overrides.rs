@@ -177,8 +177,10 @@ impl SettingPath {
 
     /// Merges a value into a scenario at this path.
     pub fn lay(&self, root: &mut Table, value: &TomlNode, schema: SchemaNode) -> Result<(), Fault> {
-        if self.is_of_others() && !has_vehicles(root) {
-            let message = format!("the scenario has no vehicles, so {} changes nothing", quoted(&self.written()));
+        let are_of_flows = root.contains_key("flow") && other_names(root).is_empty();
+        if self.is_of_others() && (are_of_flows || !has_vehicles(root)) {
+            let others = if are_of_flows { "all others are vehicles of flows" } else { "the scenario has no vehicles" };
+            let message = format!("{others}, so {} changes nothing", quoted(&self.written()));
             let fault = Fault::at(&self.0[1].place, "no vehicle here", message);
             return Err(flow_help(root).map_or(fault.clone(), |help| fault.help(help)));
         }

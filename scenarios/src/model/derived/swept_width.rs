@@ -66,7 +66,7 @@ fn tight_turn(scenario: &Scenario, vehicle: &Vehicle) -> Option<(String, String)
     }
     let lane = route.leg(along_m).map(|leg| quoted(&leg.lane)).unwrap_or_default();
     let message = format!(
-        "the turn of lane {lane} is too tight for the {} m of vehicle {}: it leaves the road by {beyond_m:.1} m",
+        "the turn of lane {lane} is too tight for the {} m of vehicle {}: it may leave the road by {beyond_m:.1} m",
         to_tenths(body.front_m + body.rear_m),
         quoted(name)
     );

@@ -15,6 +15,11 @@ impl PartialEq for ScenarioFlows {
 }
 
 impl ScenarioFlows {
+    /// The names of all flows, in the order of the file.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.names.iter().map(String::as_str)
+    }
+
     /// The name of the flow to which the vehicle of this name belongs; `None` if it is stated by itself.
     pub fn of(&self, vehicle: &str) -> Option<&str> {
         let (flow, number) = vehicle.rsplit_once('-')?;

@@ -190,6 +190,9 @@ impl<'a> Standing<'a> {
                 return reason;
             }
         }
+        if let Some(name) = rules.evades.as_ref().filter(|_| line_m.is_some()) {
+            return Some(StandingReason::InWay(name.clone()));
+        }
         if let Some(name) = rules.keeps_clear_behind.as_ref().filter(|_| line_m.is_some()) {
             return Some(StandingReason::Behind(name.clone()));
         }
