@@ -3,9 +3,9 @@
     python tests/peers/recorded_sites.py CLONES [--fetch] [--program INTERPLAY] [--starts 300] [--keep FOLDER] [--json FILE]
 
 CLONES has clones of the repositories of `commonroad_clones.py`, each in a folder OWNER+NAME; `--fetch` clones those that are missing. The files
-of each site are written into a folder of its own and read by `interplay predict --leave-one-out`. The table has a row a model and a column a
-site: the error along the road after 3 s as a share of that at constant velocity, with its 95 % interval by a bootstrap over cars. The last
-column pools all sites. Without clones it says that it skips.
+of each site are written into a folder of its own and read by `interplay predict --leave-one-out`. The table has a row a
+site and a column a model: the error along the road after 3 s as a share of that at constant velocity [%], with its 95 % interval by a bootstrap
+over cars. The last row pools all sites, the one before it the cars that move sideways. Without clones it says that it skips.
 """
 
 import argparse
@@ -42,13 +42,12 @@ def extract(clones, folder):
 
 def table(document):
     groups = document["groups"]
-    heads = [f"{group['name']} ({group['starts']} starts, {group['cars']} cars)" for group in groups]
-    print("| model | " + " | ".join(heads) + " |")
-    print("|---" * (1 + len(groups)) + "|")
-    for number, model in enumerate(groups[0]["models"]):
-        ratios = [group["models"][number]["along_ratio_to_constant_velocity"] for group in groups]
-        cells = (f"{100 * it['value']:.0f} % ({100 * it['low']:.0f} to {100 * it['high']:.0f})" for it in ratios)
-        print(f"| {model['name']} | " + " | ".join(cells) + " |")
+    names = [model["name"] for model in groups[0]["models"][1:]]
+    print("| site | starts (cars) | " + " | ".join(names) + " |\n|---|---" + "|---" * len(names) + "|")
+    for group in groups:
+        ratios = [model["along_ratio_to_constant_velocity"] for model in group["models"][1:]]
+        cells = [f"{100 * it['value']:.0f} ({100 * it['low']:.0f} to {100 * it['high']:.0f})" for it in ratios]
+        print(f"| {group['name']} | {group['starts']} ({group['cars']}) | " + " | ".join(cells) + " |")
 
 
 def main():
