@@ -115,7 +115,7 @@ def mcnemar(one, other):
 
 
 def report(results):
-    print("| scenes | " + " | ".join(VARIANTS) + " | what the referee has against the others |\n|---" + "|---" * (1 + len(VARIANTS)) + "|")
+    print("| scenes | " + " | ".join(VARIANTS) + " | against the others that know records |\n|---" + "|---" * (1 + len(VARIANTS)) + "|")
     for kind in [*KINDS, "all"]:
         of_kind = [it for it in results if kind in (it["kind"], "all")]
         cells = []
