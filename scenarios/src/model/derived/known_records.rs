@@ -29,7 +29,6 @@ impl Scenario {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::{ImportOptions, Registry, import_commonroad};
 
     #[test]
