@@ -64,6 +64,38 @@ fn models_are_compared_on_cars_that_they_were_not_fitted_on() {
 }
 
 #[test]
+fn each_group_is_judged_by_models_that_were_fitted_on_the_others() {
+    let folder = folder_with_queue("predict-sites", 6);
+    fs::write(folder.join("longer.csv"), queue(9)).expect("it can be written");
+    let words = ["predict", "queue.csv", "longer.csv", "--leave-one-out", "--starts", "15", "--json"];
+    let said = interplay(&folder, &words);
+    assert_eq!(said.code, Some(0), "{said:?}");
+    let document = said.json();
+    let groups: Vec<&str> =
+        document["groups"].as_array().expect("groups").iter().filter_map(|it| it["name"].as_str()).collect();
+    assert_eq!(groups, ["queue", "longer", "all"]);
+    assert_eq!((&document["groups"][0]["starts"], &document["groups"][2]["starts"]), (&15.into(), &30.into()));
+    let names = document["groups"][0]["models"].as_array().expect("models");
+    for name in ["human, measured", "seen motion", "IDM, literature with a fitted lag", "human, fitted"] {
+        assert!(names.iter().any(|it| it["name"] == name), "{name}");
+    }
+    assert_eq!(said.stdout, interplay(&folder, &words).stdout, "the same again");
+    let alone = interplay(&folder, &["predict", "queue.csv", "--leave-one-out"]);
+    assert_eq!(alone.code, Some(2), "{alone:?}");
+}
+
+#[test]
+fn the_driving_of_a_group_is_compared_with_that_of_the_first() {
+    let folder = folder_with_queue("predict-driving", 6);
+    fs::write(folder.join("longer.csv"), queue(9)).expect("it can be written");
+    let said = interplay(&folder, &["predict", "queue.csv", "longer.csv", "--driving", "--json"]);
+    assert_eq!(said.code, Some(0), "{said:?}");
+    assert_eq!(said.json()["driving"].as_array().map(Vec::len), Some(2));
+    let text = interplay(&folder, &["predict", "queue.csv", "longer.csv", "--driving"]);
+    assert!(text.stdout.contains("How far from queue"), "{text:?}");
+}
+
+#[test]
 fn a_driver_is_fitted_to_a_vehicle_of_a_table() {
     let folder = folder_with_queue("fit-queue", 3);
     let said = interplay(&folder, &["fit", "queue.csv", "--vehicle", "car-2", "--json"]);

@@ -79,10 +79,10 @@ def spoilt(solution):
     yield "cut short", solution.replace("".join(f"    {state}\n" for state in states[2:]), "")
 
 
-def driven(path, program, ego, seconds):
+def driven(path, program, ego, seconds, more=()):
     """What became of the run, the exported scenario and the solution."""
     with tempfile.TemporaryDirectory() as folder:
-        words = ["run", str(path.resolve()), "--planner", ego, "--no-record", "--export", "driven.xml"]
+        words = ["run", str(path.resolve()), "--planner", ego, "--no-record", "--export", "driven.xml", *more]
         try:
             run = subprocess.run([program, *words], cwd=folder, capture_output=True, text=True, timeout=seconds)
         except subprocess.TimeoutExpired:

@@ -1,13 +1,14 @@
 //! The human driver model as a prediction: one of its plans, made on the straightened lane.
 //!
 //! The plan is made by [`human`](crate::drivers::human) itself, with all its terms, for a real car among real cars. The lane and its
-//! neighbours are straight in the frame of the prediction. The vehicles ahead and beside are expected to keep their speed. A driver in
-//! traffic is assumed to want about its present speed, because the speed that it would choose on a free road cannot be observed.
+//! neighbours are straight in the frame of the prediction. Of the vehicles ahead and beside it expects what their motion shows
+//! (`SeenMotion`), or that they keep their speed. A driver in traffic is assumed to want about its present speed, because the speed that it
+//! would choose on a free road cannot be observed.
 
 use std::sync::Arc;
 
 use super::car_following::CarFollowing;
-use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, TrafficMoment};
+use super::{LateralMotion, NearbyVehicle, PredictedMotion, STEP_S, STEPS, TrafficMoment, trusted_mps2};
 use crate::drivers::SeenMotion;
 use crate::drivers::human::{self, Human};
 use crate::prediction::constant_velocity;
@@ -32,6 +33,10 @@ const AXLE_SHARE: f64 = 0.3;
 const SAFETY_M: [f64; 2] = [12.0, 3.3];
 /// Weights of a real car on the place along and across the lane, its heading and its speed.
 const TRACKING: [f64; 4] = [0.0, 0.01, 0.5, 0.1];
+/// The gap at standstill \[m\], and the shortest time gap beyond it that a driver is taken to keep \[s\]: of recorded people 5 % keep a
+/// shorter one.
+const STANDSTILL_M: f64 = 3.5;
+const LEAST_GAP_S: f64 = 0.6;
 /// Weight of changes of the steering angle.
 const STEERING_CHANGE: f64 = 0.1;
 
@@ -54,6 +59,12 @@ pub struct PredictedDriver {
     pub wanted_mps: Option<f64>,
     /// Whether those beside the lane are looked at, too.
     pub looks_beside: bool,
+    /// Whether the driver expects of the others what their motion shows, as people do; otherwise that they keep their speed.
+    pub sees_motion: bool,
+    /// By which share a shorter gap that the driver keeps now takes the place of `time_gap_s`; never below 0.6 s.
+    pub keeps_gap: f64,
+    /// A driver who changes lanes drives by the vehicles that are ahead where it will be after this time \[s\].
+    pub drifts_s: f64,
     /// How the lateral place goes on; as planned, towards the middle of the lane, without one.
     pub lateral: Option<LateralMotion>,
 }
@@ -70,13 +81,22 @@ impl PredictedDriver {
             wants_ahead_s: 0.0,
             wanted_mps: None,
             looks_beside: true,
+            sees_motion: true,
+            keeps_gap: 0.0,
+            drifts_s: 0.0,
             lateral: None,
         }
     }
 
     /// Where the driver plans to be. If it finds no plan, its speed is kept.
     pub(super) fn predict(&self, moment: &TrafficMoment) -> PredictedMotion {
-        let mut scene = self.scene(moment);
+        let is_changing = self.drifts_s > 0.0 && moment.moves_sideways();
+        let drift_m = if is_changing { self.drifts_s * moment.lateral_speed_mps } else { 0.0 };
+        let mut scene = if is_changing {
+            self.scene(&TrafficMoment { across_m: moment.across_m + drift_m, ..moment.clone() })
+        } else {
+            self.scene(moment)
+        };
         scene.ego.urgency = scene.urgency();
         let Ok(plan) = Human::new(self.settings).plan(&scene, &InferredFutures::default()) else {
             let lateral = self.lateral.unwrap_or_default();
@@ -92,7 +112,8 @@ impl PredictedDriver {
 
     /// Where any driver expects the vehicle who sees it behind the vehicle ahead.
     pub(super) fn predict_seen(&self, moment: &TrafficMoment) -> PredictedMotion {
-        let Scene { ego, others, .. } = PredictedDriver { lateral: None, ..self.clone() }.scene(moment);
+        let driver = PredictedDriver { lateral: None, looks_beside: false, ..self.clone() };
+        let Scene { ego, others, .. } = driver.scene(moment);
         let motion = SeenMotion { vehicle: &ego, leader: ego.leader_among(&others) }.expected(STEPS, STEP_S);
         let across_m = motion.states.iter().map(|state| state.y_m).collect();
         PredictedMotion { along_m: travelled_m(&motion.states), across_m }
@@ -109,17 +130,33 @@ impl PredictedDriver {
         let lateral_mps = if self.lateral.is_some() { 0.0 } else { moment.lateral_speed_mps };
         let heading_rad = if moment.speed_mps > 1.0 { libm::atan(lateral_mps / moment.speed_mps) } else { 0.0 };
         let state = State { x_m: 0.0, y_m: moment.across_m, heading_rad, speed_mps: moment.speed_mps };
-        let trusted_mps2 = moment.trusted_acceleration_mps2(self.half_noise_mps);
-        let acceleration_mps2 = self.own_acceleration * trusted_mps2;
-        let about_mps = (moment.speed_mps + self.wants_ahead_s * trusted_mps2).max(0.0);
+        let own_mps2 = moment.trusted_acceleration_mps2(self.half_noise_mps);
+        let acceleration_mps2 = self.own_acceleration * own_mps2;
+        let about_mps = (moment.speed_mps + self.wants_ahead_s * own_mps2).max(0.0);
         let wanted_mps = self.wanted_mps.unwrap_or(about_mps);
-        let ego = self.agent("ego", state, [moment.length_m, moment.width_m], acceleration_mps2, &route);
+        let mut ego = self.agent("ego", state, [moment.length_m, moment.width_m], acceleration_mps2, &route);
+        if let Some(comfort) = &mut ego.limits.comfort {
+            comfort.time_gap_s = self.own_gap_s(moment);
+        }
         let seen = self.seen(moment);
         let others = seen.iter().enumerate().map(|(index, it)| {
             let state = State { x_m: it.ahead_m, y_m: it.across_m, heading_rad: 0.0, speed_mps: it.speed_mps };
-            self.agent(&index.to_string(), state, [it.length_m, it.width_m], 0.0, &route)
+            let shown_mps2 = trusted_mps2(it.acceleration_mps2, it.speed_noise_mps, self.half_noise_mps);
+            let acceleration_mps2 = if self.sees_motion { shown_mps2 } else { 0.0 };
+            self.agent(&index.to_string(), state, [it.length_m, it.width_m], acceleration_mps2, &route)
         });
-        let others = others.collect();
+        let mut others: Vec<Agent> = others.collect();
+        let knowledge = if self.sees_motion { Knowledge::Motion { late_steps: 0 } } else { Knowledge::Plans };
+        if self.sees_motion {
+            // The farthest first: each is expected to stay behind the one ahead of it.
+            for index in (0..others.len()).rev() {
+                let expected = {
+                    let vehicle = &others[index];
+                    SeenMotion { vehicle, leader: vehicle.leader_among(&others[index + 1..]) }.expected(HORIZON, STEP_S)
+                };
+                others[index].prediction = expected.into();
+            }
+        }
         let wanted_m = if self.lateral.is_some() { moment.across_m } else { 0.0 };
         let goal = Goal {
             target: State { x_m: 0.0, y_m: wanted_m, heading_rad: 0.0, speed_mps: wanted_mps },
@@ -127,7 +164,17 @@ impl PredictedDriver {
             comfort: [self.acceleration_change, STEERING_CHANGE],
             safety: SafetyEllipse { along_m: SAFETY_M[0], across_m: SAFETY_M[1] },
         };
-        Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, knowledge: Knowledge::Plans, ego, goal, others }
+        Scene { tick: 0, step_s: STEP_S, horizon: HORIZON, knowledge, ego, goal, others }
+    }
+
+    /// The time gap that the driver keeps \[s\].
+    fn own_gap_s(&self, moment: &TrafficMoment) -> f64 {
+        let leader = moment.leaders().first().copied().filter(|_| self.keeps_gap > 0.0);
+        leader.map_or(self.time_gap_s, |leader| {
+            let now_s = (moment.gap_m(&leader) - STANDSTILL_M) / moment.speed_mps.max(1.0);
+            let kept_s = now_s.clamp(LEAST_GAP_S.min(self.time_gap_s), self.time_gap_s);
+            self.time_gap_s + self.keeps_gap * (kept_s - self.time_gap_s)
+        })
     }
 
     /// Whom the driver looks at: the nearest ahead in its lane, and those beside it.
@@ -240,8 +287,23 @@ pub enum MotionModel {
     CarFollowing(CarFollowing),
     /// Our human driver.
     Driver(PredictedDriver),
+    /// What is expected of a population of drivers: the mean of their motions.
+    Population(Vec<PredictedDriver>),
     /// The motion that drivers expect who know no plans ([`SeenMotion`](crate::drivers::SeenMotion)).
-    Seen,
+    Seen {
+        /// Noise of the record with which half of an acceleration is trusted \[m/s\].
+        half_noise_mps: f64,
+    },
+}
+
+/// The mean of the motions of some drivers.
+fn mean(drivers: &[PredictedDriver], moment: &TrafficMoment) -> PredictedMotion {
+    let motions: Vec<PredictedMotion> = drivers.iter().map(|driver| driver.predict(moment)).collect();
+    let mean = |part: fn(&PredictedMotion) -> &Vec<f64>| {
+        let at = |step: usize| motions.iter().map(|it| part(it)[step]).sum::<f64>() / motions.len().max(1) as f64;
+        (0..=STEPS).map(at).collect()
+    };
+    PredictedMotion { along_m: mean(|it| &it.along_m), across_m: mean(|it| &it.across_m) }
 }
 
 impl MotionModel {
@@ -254,7 +316,10 @@ impl MotionModel {
             }
             MotionModel::CarFollowing(model) => model.predict(moment),
             MotionModel::Driver(model) => model.predict(moment),
-            MotionModel::Seen => PredictedDriver::usual().predict_seen(moment),
+            MotionModel::Population(drivers) => mean(drivers, moment),
+            MotionModel::Seen { half_noise_mps } => {
+                PredictedDriver { half_noise_mps: *half_noise_mps, ..PredictedDriver::usual() }.predict_seen(moment)
+            }
         }
     }
 }
@@ -275,6 +340,45 @@ mod tests {
     fn a_predicted_vehicle_stays_behind_a_slow_leader() {
         let motion = PredictedDriver::usual().predict(&behind(30.0, 10.0));
         assert!(motion.along_m[STEPS] < 30.0 + 50.0, "{}", motion.along_m[STEPS]);
+    }
+
+    #[test]
+    fn a_driver_with_a_short_gap_keeps_it_but_none_below_the_least() {
+        let driver = PredictedDriver { keeps_gap: 1.0, ..PredictedDriver::usual() };
+        let gap_s = |driver: &PredictedDriver, gap_m: f64| driver.own_gap_s(&behind(gap_m, 20.0));
+        assert!((gap_s(&driver, 3.5 + 16.0) - 0.8).abs() < 1e-9 && gap_s(&driver, 5.0) == 0.6);
+        assert_eq!((gap_s(&driver, 80.0), gap_s(&PredictedDriver::usual(), 5.0)), (1.15, 1.15));
+    }
+
+    #[test]
+    fn a_leader_that_is_seen_to_brake_slows_the_driver_behind() {
+        let mut moment = behind(25.0, 20.0);
+        moment.others[0].acceleration_mps2 = -2.0;
+        let along_m =
+            |sees_motion| PredictedDriver { sees_motion, ..PredictedDriver::usual() }.predict(&moment).along_m[15];
+        assert!(along_m(true) < along_m(false) - 0.5, "{} {}", along_m(true), along_m(false));
+    }
+
+    #[test]
+    fn who_changes_lanes_follows_whom_it_will_be_behind() {
+        let mut moment = TrafficMoment { lateral_speed_mps: 1.0, ..behind(25.0, 12.0) };
+        moment.others[0].across_m = 2.5;
+        let along_m = |drifts_s| {
+            let lateral = Some(LateralMotion::Kept);
+            PredictedDriver { drifts_s, lateral, looks_beside: false, ..PredictedDriver::usual() }
+                .predict(&moment)
+                .along_m[15]
+        };
+        assert!(along_m(2.0) < along_m(0.0) - 0.5, "{} {}", along_m(2.0), along_m(0.0));
+    }
+
+    #[test]
+    fn a_population_is_predicted_by_the_mean_of_its_drivers() {
+        let drivers = [0.6, 1.6].map(|time_gap_s| PredictedDriver { time_gap_s, ..PredictedDriver::usual() });
+        let moment = behind(20.0, 15.0);
+        let alone = drivers.each_ref().map(|driver| driver.predict(&moment).along_m[STEPS]);
+        let mean_m = MotionModel::Population(drivers.to_vec()).predict(&moment).along_m[STEPS];
+        assert!((mean_m - 0.5 * (alone[0] + alone[1])).abs() < 1e-9 && alone[0] > alone[1], "{alone:?}");
     }
 
     #[test]

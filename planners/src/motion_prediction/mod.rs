@@ -1,8 +1,8 @@
 //! Predictions of one vehicle in real traffic, from its state and those of the vehicles around it at one time.
 //!
 //! A [`TrafficMoment`] is stated in the frame of the vehicle's lane: `s` along it from the vehicle's middle, `n` across
-//! it from the lane's middle, positive to the left. It contains no plans and no later observations: each other vehicle
-//! is expected to keep its speed along its lane. A [`MotionModel`] returns positions at steps of [`STEP_S`].
+//! it from the lane's middle, positive to the left. It contains no plans and no later observations. A [`MotionModel`] returns positions
+//! at steps of [`STEP_S`].
 //!
 //! | model | along the lane | across it |
 //! |---|---|---|
@@ -11,6 +11,7 @@
 //! | IDM | Treiber, Hennecke and Helbing (2000), with or without a lag | as stated |
 //! | seen | what drivers expect who know no plans (`SeenMotion`) | as seen |
 //! | human | one plan of our human driver | as planned, or as stated |
+//! | population | the mean of some human drivers' plans | the same |
 //!
 //! "As stated" refers to [`LateralMotion`]: the lateral position is kept, or the present lateral speed decays.
 
@@ -22,6 +23,8 @@ pub use driver::{MotionModel, PredictedDriver};
 
 /// Time between two positions of a prediction \[s\].
 pub const STEP_S: f64 = 0.2;
+/// Who moves sideways faster than this changes lanes \[m/s\].
+const SIDEWAYS_MPS: f64 = 0.4;
 /// Number of steps of a prediction, which reaches 5 s.
 pub const STEPS: usize = 25;
 
@@ -62,10 +65,20 @@ pub struct NearbyVehicle {
     pub across_m: f64,
     /// Its speed along the lane \[m/s\].
     pub speed_mps: f64,
+    /// Its acceleration, as that of the vehicle itself \[m/s²\].
+    pub acceleration_mps2: f64,
+    /// Noise of its record, as that of the vehicle itself \[m/s\].
+    pub speed_noise_mps: f64,
     /// Length of its body \[m\].
     pub length_m: f64,
     /// Width of its body \[m\].
     pub width_m: f64,
+}
+
+/// An acceleration as far as it can be trusted: half of it where the noise is as stated \[m/s²\].
+fn trusted_mps2(acceleration_mps2: f64, noise_mps: f64, half_noise_mps: f64) -> f64 {
+    let ratio = noise_mps / half_noise_mps.max(1e-6);
+    acceleration_mps2 / (1.0 + ratio * ratio)
 }
 
 impl TrafficMoment {
@@ -82,10 +95,14 @@ impl TrafficMoment {
         (other.across_m - self.across_m).abs() < 0.5 * (other.width_m + self.width_m)
     }
 
+    /// Whether it moves sideways as in a change of lane.
+    pub fn moves_sideways(&self) -> bool {
+        self.lateral_speed_mps.abs() > SIDEWAYS_MPS
+    }
+
     /// The acceleration as far as it can be trusted: half of it where the noise is as stated \[m/s²\].
     fn trusted_acceleration_mps2(&self, half_noise_mps: f64) -> f64 {
-        let ratio = self.speed_noise_mps / half_noise_mps.max(1e-6);
-        self.acceleration_mps2 / (1.0 + ratio * ratio)
+        trusted_mps2(self.acceleration_mps2, self.speed_noise_mps, half_noise_mps)
     }
 
     /// The gap to a vehicle ahead, from bumper to bumper \[m\].

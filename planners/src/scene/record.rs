@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::{Body, Input, Limits, State};
+use crate::{Body, Input, Limits, Scene, State, Trajectory};
 
 /// A recorded motion: states at increasing times, and between them what lies evenly between both.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,6 +114,25 @@ impl Record {
             acceleration_mps2: acceleration_mps2.clamp(limits.acceleration_min_mps2, limits.acceleration_max_mps2),
             steering_rad: steering_rad.clamp(-most_rad, most_rad),
         })
+    }
+}
+
+impl Record {
+    /// The motion of the planning vehicle of a scene as it is recorded, with its last speed and heading after its end.
+    pub(crate) fn onwards(&self, scene: &Scene) -> Trajectory {
+        let Scene { ego, step_s, .. } = scene;
+        let mut state = ego.state;
+        let mut motion = Trajectory { states: vec![state], inputs: Vec::with_capacity(scene.horizon) };
+        for step in 0..scene.horizon {
+            let times_s = [step_s * (scene.tick + step) as f64, *step_s];
+            let (sin, cos) = libm::sincos(state.heading_rad);
+            let further_m = step_s * state.speed_mps;
+            let steady = State { x_m: state.x_m + further_m * cos, y_m: state.y_m + further_m * sin, ..state };
+            motion.inputs.push(self.input(&ego.body, &ego.limits, &state, times_s).unwrap_or_default());
+            state = self.state_at(times_s[0] + step_s).unwrap_or(steady);
+            motion.states.push(state);
+        }
+        motion
     }
 }
 

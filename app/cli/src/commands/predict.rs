@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use interplay_presentation::report;
-use interplay_recordings::{Recordings, RecordingsError, compare};
+use interplay_recordings::{Recordings, RecordingsError, compare, leave_one_out};
 
 use crate::flag_values::values::count;
 use crate::output::error::ExitStatus;
@@ -13,20 +13,29 @@ use crate::output::{ending, json, print, print_error, print_load_error};
 
 /// Say how well drivers predict recorded cars, from each second 1 to 5 s ahead.
 ///
-/// Constant velocity, decaying acceleration, IDM and our human driver are compared. Models with parameters are fitted on one half of the
+/// Constant velocity, decaying acceleration, IDM, seen motion and our human driver are compared. Models with parameters are fitted on one half of the
 /// cars and judged on the other. A prediction knows nothing that was recorded after its start, and no vehicle's plan. Each argument is
 /// a group of its own in the tables.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  \
     interplay predict recordings/\n  \
     interplay predict us101/ munich/ --json\n  \
+    interplay predict us101/ lanker/ munich/ --leave-one-out --starts 300\n  \
     interplay predict USA_US101-4_1_T-1.xml --starts 200")]
 pub(crate) struct Predict {
     /// Scenarios of CommonRoad with recorded vehicles (.xml), tables of recorded vehicles (.csv), or folders of them
     #[arg(value_name = "RECORDINGS", required = true)]
     recordings: Vec<PathBuf>,
 
-    /// Judge on at most N starts, evenly from all of them [default: all]
+    /// Say only how the recorded cars drive, and how far the driving in each argument is from that in the first
+    #[arg(long, conflicts_with_all = ["leave_one_out", "starts"])]
+    driving: bool,
+
+    /// Judge on each argument what was fitted on all others; the last table is the pool
+    #[arg(long)]
+    leave_one_out: bool,
+
+    /// Judge on at most N starts, evenly from all of them, or of each argument with --leave-one-out [default: all]
     #[arg(long, value_name = "N", value_parser = count::<NonZeroUsize>)]
     starts: Option<NonZeroUsize>,
 
@@ -38,6 +47,12 @@ pub(crate) struct Predict {
 impl Predict {
     pub(crate) fn execute(self) -> ExitStatus {
         let read = Recordings::read(&self.recordings);
+        if self.driving {
+            return match read {
+                Ok(recordings) => self.driving(&recordings),
+                Err(error) => refused(error),
+            };
+        }
         let compared = read.and_then(|recordings| {
             let [tracks, cars] = recordings.vehicles();
             let [rows, repeated] = recordings.rows();
@@ -46,13 +61,27 @@ impl Predict {
                 "{} files, {tracks} vehicles ({cars} different ones), {rows} rows, of which {share:.0} % repeat others",
                 recordings.files()
             ));
-            compare(&recordings, self.starts.map_or(usize::MAX, NonZeroUsize::get))
+            let most = self.starts.map_or(usize::MAX, NonZeroUsize::get);
+            if self.leave_one_out { leave_one_out(&recordings, most) } else { compare(&recordings, most) }
         });
         let comparison = match compared {
             Ok(comparison) => comparison,
             Err(error) => return refused(error),
         };
         let text = if self.json { json("the measures", &comparison) } else { Ok(report::prediction(&comparison)) };
+        ending(text.and_then(|text| print(&text)))
+    }
+}
+
+impl Predict {
+    /// Prints how the recorded cars of each group drive, and how far they are from those of the first.
+    fn driving(&self, recordings: &Recordings) -> ExitStatus {
+        let (driving, distances) = (recordings.driving(), recordings.driving_distances());
+        let text = if self.json {
+            json("the statistics", &serde_json::json!({ "driving": driving, "distances": distances }))
+        } else {
+            Ok(report::driving(&driving, &distances))
+        };
         ending(text.and_then(|text| print(&text)))
     }
 }

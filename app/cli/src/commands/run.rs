@@ -43,6 +43,10 @@ pub(crate) struct Run {
     #[arg(long = "set", value_name = "PATH=VALUE")]
     sets: Vec<String>,
 
+    /// Let the ego know where the recorded vehicles will be, as every planner of CommonRoad does; the report says so
+    #[arg(long)]
+    ego_knows_records: bool,
+
     /// Seed of all random numbers
     #[arg(long, value_name = "N", value_parser = values::seed, allow_negative_numbers = true)]
     seed: Option<u64>,
@@ -125,6 +129,7 @@ impl Run {
 
     fn run_once(&self, registry: &Registry) -> ExitStatus {
         let scenario = match registry.load(self.scenario(), &self.overrides()) {
+            Ok(scenario) if self.ego_knows_records => self.without_foreign_claims(scenario.with_known_records()),
             Ok(scenario) => self.without_foreign_claims(scenario),
             Err(error) => {
                 print_load_error(error);

@@ -18,7 +18,7 @@ pub use identification::identification;
 pub use identified_scenario::{Believed, identified_scenario};
 pub use identified_summary::identified_summary;
 pub use junit::junit;
-pub use prediction::prediction;
+pub use prediction::{driving, prediction};
 pub use suite::{Case, CaseError, table};
 pub use summary::summary;
 pub use why::why;

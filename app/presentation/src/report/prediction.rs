@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use interplay_recordings::{
-    ComparedModel, DrivingStatistics, GroupComparison, MeasureInterval, PredictionComparison, Spread,
+    ComparedModel, DrivingDistance, DrivingStatistics, GroupComparison, MeasureInterval, PredictionComparison, Spread,
 };
 
 use super::columns::{Align, write_table, written};
@@ -31,19 +31,57 @@ fn write_comparison(text: &mut String, comparison: &PredictionComparison) -> std
         let rows = group.models.iter().map(rates_row).chain([recorded]);
         write_table(text, &rates_header(), rows)?;
         writeln!(text)?;
+        if comparison.leaves_one_out {
+            write_fitted(text, &group.models)?;
+            writeln!(text)?;
+        }
     }
-    writeln!(
-        text,
-        "In brackets: 95 % intervals by a bootstrap over cars. Fitted on {} starts of {} other cars:",
-        comparison.fitted_on_starts, comparison.fitted_on_cars
-    )?;
-    let models = comparison.groups.first().map(|group| group.models.as_slice()).unwrap_or_default();
+    writeln!(text, "In brackets: 95 % intervals by a bootstrap over cars.")?;
+    if comparison.leaves_one_out {
+        return writeln!(text, "Each group was judged by models that were fitted on all others.");
+    }
+    let PredictionComparison { fitted_on_starts, fitted_on_cars, .. } = comparison;
+    writeln!(text, "Fitted on {fitted_on_starts} starts of {fitted_on_cars} other cars:")?;
+    write_fitted(text, comparison.groups.first().map(|group| group.models.as_slice()).unwrap_or_default())?;
+    writeln!(text)?;
+    write_driving(text, &comparison.driving)
+}
+
+fn write_driving(text: &mut String, driving: &[DrivingStatistics]) -> std::fmt::Result {
+    writeln!(text, "How the recorded cars drive: median [5 % to 95 %]")?;
+    write_table(text, &driving_header(), driving.iter().map(driving_row))
+}
+
+/// How recorded cars drive, and how far those of each group are from those of the first.
+pub fn driving(driving: &[DrivingStatistics], distances: &[DrivingDistance]) -> String {
+    written(|text| {
+        write_driving(text, driving)?;
+        let first = driving.first().map(|it| it.name.as_str()).unwrap_or_default();
+        let titles = ["", "samples", "Wasserstein", "Kolmogorov", "within 5 to 95 %"];
+        let row = |it: &DrivingDistance| {
+            let [_, count] = it.counts;
+            vec![
+                it.name.clone(),
+                it.quantity.to_owned(),
+                count.to_string(),
+                format!("{:.2}", it.wasserstein),
+                format!("{:.2}", it.largest_difference),
+                format!("{:.0} %", 100.0 * it.inside_share),
+            ]
+        };
+        if !distances.is_empty() {
+            writeln!(text, "\nHow far from {first}")?;
+            write_table(text, &header("", &titles), distances.iter().map(row))?;
+        }
+        Ok(())
+    })
+}
+
+fn write_fitted(text: &mut String, models: &[ComparedModel]) -> std::fmt::Result {
     for ComparedModel { model, .. } in models.iter().filter(|it| !it.model.fitted.is_empty()) {
         let values: Vec<String> = model.fitted.iter().map(|(name, value)| format!("{name} {value}")).collect();
         writeln!(text, "  {}: {}", model.name, values.join(", "))?;
     }
-    writeln!(text, "\nHow the recorded cars drive: median [5 % to 95 %]")?;
-    write_table(text, &driving_header(), comparison.driving.iter().map(driving_row))?;
     Ok(())
 }
 

@@ -1,5 +1,6 @@
 //! Statistics of how recorded vehicles drive: gaps, braking, lane changes.
 
+mod distance;
 mod lane_changes;
 
 use interplay_planners::motion_prediction::TrafficMoment;
@@ -9,6 +10,7 @@ use serde::Serialize;
 use crate::measure::nearest_rank;
 use crate::start::{PAST_S, known_at};
 use crate::traffic::{Recordings, Timeline};
+pub use distance::DrivingDistance;
 use lane_changes::LaneChange;
 
 /// The quantiles at 5, 50 and 95 % of a sample.
@@ -71,8 +73,13 @@ struct Counted {
 impl Recordings {
     /// Driving statistics of the vehicles of each group.
     pub fn driving(&self) -> Vec<DrivingStatistics> {
+        self.counted().into_iter().zip(&self.groups).map(|(counted, name)| counted.statistics(name)).collect()
+    }
+
+    /// What is counted of each group.
+    fn counted(&self) -> Vec<Counted> {
         let counted: Vec<Counted> = self.timelines.par_iter().map(counted).collect();
-        let group = |(index, name): (usize, &String)| {
+        let group = |index: usize| {
             let mut all = Counted::default();
             for (_, counted) in self.timelines.iter().zip(&counted).filter(|(it, _)| it.group == index) {
                 all.gaps_s.extend(&counted.gaps_s);
@@ -81,9 +88,9 @@ impl Recordings {
                 all.jerk_mps3.extend(&counted.jerk_mps3);
                 all.changes.extend(&counted.changes);
             }
-            all.statistics(name)
+            all
         };
-        self.groups.iter().enumerate().map(group).collect()
+        (0..self.groups.len()).map(group).collect()
     }
 }
 

@@ -152,6 +152,7 @@ fn driver(time_gap_ratio: f64, acceleration_change: f64, wanted_mps: f64) -> Pre
         acceleration_change,
         wanted_mps: Some(wanted_mps),
         looks_beside: false,
+        sees_motion: false,
         lateral: Some(LateralMotion::Kept),
         ..PredictedDriver::usual()
     }

@@ -1,5 +1,6 @@
 //! The families of models, each fitted to recordings.
 
+use interplay_planners::drivers::human::Style;
 use interplay_planners::drivers::{human, idm};
 use interplay_planners::motion_prediction::{CarFollowing, LateralMotion, MotionModel, PredictedDriver, STEP_S};
 
@@ -19,8 +20,11 @@ pub(super) struct Family {
     /// Whether its prediction is a plan, which takes a thousand times as long.
     pub plans: bool,
     /// Creates the model from values of the parameters and the decay time of the lateral speed \[s\].
-    pub model: fn(&[f64], f64) -> MotionModel,
+    pub model: Model,
 }
+
+/// Creates a model from values of its parameters and the decay time of the lateral speed \[s\].
+type Model = fn(&[f64], f64) -> MotionModel;
 
 const HEADWAY: Parameter =
     Parameter { name: "headway_s", values: &[0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0], start: 5 };
@@ -39,75 +43,87 @@ const HALF_NOISE: Parameter =
     Parameter { name: "half_noise_mps", values: &[0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.4, 1.0], start: 5 };
 
 /// All models that are compared. The first is the baseline of the others.
-pub(super) const FAMILIES: [Family; 8] = [
-    Family {
-        name: "constant velocity",
-        parameters: &[],
-        decays: false,
-        plans: false,
-        model: |_, _| MotionModel::ConstantVelocity,
-    },
-    Family { name: "seen", parameters: &[], decays: false, plans: false, model: |_, _| MotionModel::Seen },
-    Family {
-        name: "decaying acceleration",
-        parameters: &[DECAY, HALF_NOISE],
-        decays: true,
-        plans: false,
-        model: |values, decay_s| MotionModel::DecayingAcceleration {
-            time_s: values[0],
-            half_noise_mps: values[1],
-            lateral: LateralMotion::Decaying(decay_s),
-        },
-    },
-    Family {
-        name: "IDM, literature",
-        parameters: &[],
-        decays: false,
-        plans: false,
-        model: |_, _| MotionModel::CarFollowing(CarFollowing::literature()),
-    },
-    Family {
-        name: "IDM, fitted",
-        parameters: &[HEADWAY, GAP, ACCELERATION, BRAKING, WANTED],
-        decays: true,
-        plans: false,
-        model: |values, decay_s| idm_model(values, [0.0, 1.0], decay_s),
-    },
-    Family {
-        name: "IDM, fitted with a lag",
-        parameters: &[HEADWAY, GAP, ACCELERATION, BRAKING, WANTED, LAG, HALF_NOISE],
-        decays: true,
-        plans: false,
-        model: |values, decay_s| idm_model(values, [values[5], values[6]], decay_s),
-    },
-    Family {
-        name: "human, as it is",
-        parameters: &[],
-        decays: false,
-        plans: true,
-        model: |_, _| MotionModel::Driver(PredictedDriver::usual()),
-    },
-    Family {
-        name: "human, fitted",
-        parameters: &[
-            Parameter {
-                name: "acceleration_change",
-                values: &[0.05, 0.1, 0.2, 0.3, 0.4, 0.6, 0.9, 1.3, 2.0, 3.0],
-                start: 3,
-            },
-            Parameter { name: "following_weight", values: &[0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0], start: 3 },
-            Parameter { name: "time_gap_s", values: &[0.2, 0.4, 0.6, 0.8, 1.0, 1.15, 1.3, 1.6, 2.0], start: 5 },
-            Parameter { name: "adapts_to_leaders", values: &[0.0, 0.1, 0.2, 0.27, 0.35, 0.45, 0.6], start: 3 },
-            Parameter { name: "adapts_to_lane", values: &[0.0, 0.05, 0.1, 0.2, 0.3], start: 2 },
-            Parameter { name: "own_acceleration", values: &[0.0, 0.25, 0.5, 0.75, 1.0, 1.25], start: 4 },
-            HALF_NOISE,
-            Parameter { name: "wants_ahead_s", values: &[0.0, 0.4, 0.8, 1.2, 1.6, 2.0, 2.5, 3.0], start: 2 },
-        ],
-        decays: true,
-        plans: true,
-        model: human_model,
-    },
+pub(super) static FAMILIES: [Family; 12] = [
+    Family::simple("constant velocity", &[], false, |_, _| MotionModel::ConstantVelocity),
+    Family::simple("decaying acceleration", &[DECAY, HALF_NOISE], true, |values, decay_s| {
+        let lateral = LateralMotion::Decaying(decay_s);
+        MotionModel::DecayingAcceleration { time_s: values[0], half_noise_mps: values[1], lateral }
+    }),
+    Family::simple("IDM, literature", &[], false, |_, _| MotionModel::CarFollowing(CarFollowing::literature())),
+    Family::simple("IDM, literature with a fitted lag", &[LAG, HALF_NOISE], true, |values, decay_s| {
+        let lateral = LateralMotion::Decaying(decay_s);
+        let [lag_s, half_noise_mps] = [values[0], values[1]];
+        MotionModel::CarFollowing(CarFollowing { lag_s, half_noise_mps, lateral, ..CarFollowing::literature() })
+    }),
+    Family::simple("IDM, fitted", &[HEADWAY, GAP, ACCELERATION, BRAKING, WANTED], true, |values, decay_s| {
+        idm_model(values, [0.0, 1.0], decay_s)
+    }),
+    Family::simple(
+        "IDM, fitted with a lag",
+        &[HEADWAY, GAP, ACCELERATION, BRAKING, WANTED, LAG, HALF_NOISE],
+        true,
+        |values, decay_s| idm_model(values, [values[5], values[6]], decay_s),
+    ),
+    Family::simple("seen motion", &[], false, |_, _| MotionModel::Seen { half_noise_mps: 1.0 }),
+    Family::simple("seen motion, noise fitted", &[HALF_NOISE], false, |values, _| MotionModel::Seen {
+        half_noise_mps: values[0],
+    }),
+    Family::planning("human, as it is", &[], false, |_, _| MotionModel::Driver(PredictedDriver::usual())),
+    Family::planning("human, measured", &[], false, |_, _| MotionModel::Population(measured([0.0, 0.0]))),
+    Family::planning("human, measured, flow fitted", &FLOW, false, |values, _| {
+        MotionModel::Population(measured([values[0], values[1]]))
+    }),
+    Family::planning("human, fitted", &HUMAN, true, human_model),
 ];
+
+/// The parameters of the human driver.
+const HUMAN: [Parameter; 8] = [
+    Parameter { name: "acceleration_change", values: &[0.05, 0.1, 0.2, 0.3, 0.4, 0.6, 0.9, 1.3, 2.0, 3.0], start: 3 },
+    // 5 % of recorded time gaps are below the least.
+    Parameter { name: "time_gap_s", values: &[0.6, 0.8, 1.0, 1.15, 1.3, 1.6, 2.0], start: 3 },
+    Parameter { name: "keeps_gap", values: &[0.0, 0.5, 1.0], start: 2 },
+    Parameter { name: "adapts_to_leaders", values: &[0.0, 0.1, 0.2, 0.27, 0.35, 0.45, 0.6], start: 3 },
+    Parameter { name: "adapts_to_lane", values: &[0.0, 0.05, 0.1, 0.2, 0.3], start: 2 },
+    HALF_NOISE,
+    Parameter { name: "wants_ahead_s", values: &[0.0, 0.4, 0.8, 1.2, 1.6, 2.0, 2.5, 3.0], start: 2 },
+    Parameter { name: "drifts_s", values: &[0.0, 1.0, 2.0], start: 1 },
+];
+
+impl Family {
+    /// A family whose predictions are formulas.
+    const fn simple(name: &'static str, parameters: &'static [Parameter], decays: bool, model: Model) -> Family {
+        Family { name, parameters, decays, plans: false, model }
+    }
+
+    /// A family whose predictions are plans.
+    const fn planning(name: &'static str, parameters: &'static [Parameter], decays: bool, model: Model) -> Family {
+        Family { name, parameters, decays, plans: true, model }
+    }
+}
+
+/// By which shares the style `measured` adapts to the vehicles ahead and to its lane: next to nothing up to what it does by itself, and more.
+const FLOW: [Parameter; 2] = [
+    Parameter { name: "adapts_to_leaders", values: &[1e-6, 0.1, 0.27, 0.4], start: 2 },
+    Parameter { name: "adapts_to_lane", values: &[1e-6, 0.1, 0.2], start: 1 },
+];
+
+/// Number of members of the style `measured` whose mean is its prediction.
+const MEMBERS: u32 = 5;
+
+/// Members of the population of the style `measured`, with the shares by which they adapt if these are not 0.
+fn measured([adapts_to_leaders, adapts_to_lane]: [f64; 2]) -> Vec<PredictedDriver> {
+    let member = |number: u32| {
+        let settings = human::Settings {
+            style: Some(Style::Measured),
+            member: Some(number),
+            adapts_to_leaders,
+            adapts_to_lane,
+            ..human::Settings::default()
+        };
+        PredictedDriver { settings, ..PredictedDriver::usual() }
+    };
+    (0..MEMBERS).map(member).collect()
+}
 
 fn idm_model(values: &[f64], [lag_s, half_noise_mps]: [f64; 2], decay_s: f64) -> MotionModel {
     let settings = idm::Settings {
@@ -133,7 +149,7 @@ const SAFETY_WEIGHT: f64 = 0.5;
 fn human_model(values: &[f64], decay_s: f64) -> MotionModel {
     let settings = human::Settings {
         safety_weight: Some(SAFETY_WEIGHT),
-        following_weight: values[1],
+        time_gap_ratio: Some(1.0),
         adapts_to_leaders: values[3],
         adapts_to_lane: values[4],
         ..human::Settings::default()
@@ -141,13 +157,14 @@ fn human_model(values: &[f64], decay_s: f64) -> MotionModel {
     MotionModel::Driver(PredictedDriver {
         settings,
         acceleration_change: values[0],
-        time_gap_s: values[2],
-        own_acceleration: values[5],
-        half_noise_mps: values[6],
-        wants_ahead_s: values[7],
-        wanted_mps: None,
+        time_gap_s: values[1],
+        keeps_gap: values[2],
+        half_noise_mps: values[5],
+        wants_ahead_s: values[6],
+        drifts_s: values[7],
         looks_beside: false,
         lateral: Some(LateralMotion::Decaying(decay_s)),
+        ..PredictedDriver::usual()
     })
 }
 

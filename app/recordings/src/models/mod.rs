@@ -3,15 +3,15 @@
 mod families;
 mod search;
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
 use interplay_planners::motion_prediction::MotionModel;
 use serde::Serialize;
 
 use crate::start::Start;
 pub(crate) use families::decay_s;
 use families::{FAMILIES, Family};
-
-/// Maximum number of starts of each group on which a planning model is fitted; other models are fitted on all starts.
-const MAX_PLANNED_STARTS: usize = 350;
 
 #[derive(Clone, Debug, Serialize)]
 pub struct NamedModel {
@@ -23,31 +23,76 @@ pub struct NamedModel {
     pub model: MotionModel,
 }
 
-/// All models; those with parameters are fitted on the given starts.
-pub(crate) fn all(training: &[&Start]) -> Vec<NamedModel> {
-    // The lateral decay is fitted first, since all fitted models use it.
-    let decay_s = decay_s(training);
-    FAMILIES.iter().map(|family| family.fitted_on(training, decay_s)).collect()
+/// The starts on which models are fitted, by group, and what is known of their errors already.
+pub(crate) struct Fits<'a> {
+    /// For models of formulas, and for those that plan.
+    starts: [ByGroup<'a>; 2],
+    all: Vec<&'a Start>,
+    /// The errors in each group of a family, by its number and the bits of its values: fits without one group ask for the same ones.
+    known: Mutex<BTreeMap<(usize, Vec<u64>), Vec<f64>>>,
 }
 
-impl Family {
-    fn fitted_on(&self, training: &[&Start], decay_s: f64) -> NamedModel {
-        let most = if self.plans { MAX_PLANNED_STARTS } else { usize::MAX };
-        let groups = by_group(training, most);
-        let usual: Vec<f64> = groups.iter().map(|starts| along_error(&MotionModel::ConstantVelocity, starts)).collect();
-        let model = |values: &[f64]| (self.model)(values, decay_s);
+/// Starts by group, and the error of constant velocity in each group.
+struct ByGroup<'a> {
+    groups: Vec<Vec<&'a Start>>,
+    usual: Vec<f64>,
+}
+
+impl<'a> ByGroup<'a> {
+    fn of(starts: &[&'a Start], most: usize) -> ByGroup<'a> {
+        let groups = starts.iter().map(|start| start.group + 1).max().unwrap_or(0);
+        let of_group = |group: usize| -> Vec<&'a Start> {
+            every(&starts.iter().copied().filter(|it| it.group == group).collect::<Vec<_>>(), most)
+        };
+        let groups: Vec<Vec<&Start>> = (0..groups).map(of_group).collect();
+        let usual = groups.iter().map(|starts| along_error(&MotionModel::ConstantVelocity, starts)).collect();
+        ByGroup { groups, usual }
+    }
+}
+
+impl<'a> Fits<'a> {
+    /// Fits on starts, at most as many of each group as stated: for formulas, and for plans.
+    pub(crate) fn on(starts: &[&'a Start], [formulas, plans]: [usize; 2]) -> Fits<'a> {
+        let starts_of = [formulas, plans].map(|most| ByGroup::of(starts, most));
+        Fits { starts: starts_of, all: starts.to_vec(), known: Mutex::default() }
+    }
+
+    /// All models; those with parameters are fitted on all groups but one.
+    pub(crate) fn models(&self, without: Option<usize>) -> Vec<NamedModel> {
+        let training: Vec<&Start> = self.all.iter().copied().filter(|it| Some(it.group) != without).collect();
+        // The lateral decay is fitted first, since all fitted models use it.
+        let decay_s = decay_s(&training);
+        (0..FAMILIES.len()).map(|family| self.fitted(family, decay_s, without)).collect()
+    }
+
+    fn fitted(&self, number: usize, decay_s: f64, without: Option<usize>) -> NamedModel {
+        let family: &Family = &FAMILIES[number];
         // All groups have the same weight, independent of their size, speeds and noise.
         let error = |values: &[f64]| {
-            let model = model(values);
-            groups.iter().zip(&usual).map(|(starts, usual)| along_error(&model, starts) / usual.max(1e-9)).sum()
+            let errors = self.errors(number, values, decay_s);
+            errors.iter().enumerate().filter(|(group, _)| Some(*group) != without).map(|(_, error)| error).sum()
         };
-        let values = search::least(self.parameters, error);
+        let values = search::least(family.parameters, error);
         let mut fitted: Vec<(String, f64)> =
-            self.parameters.iter().map(|it| it.name.to_owned()).zip(values.iter().copied()).collect();
-        if self.decays {
+            family.parameters.iter().map(|it| it.name.to_owned()).zip(values.iter().copied()).collect();
+        if family.decays {
             fitted.push(("lateral_decay_s".to_owned(), decay_s));
         }
-        NamedModel { name: self.name.to_owned(), fitted, model: model(&values) }
+        NamedModel { name: family.name.to_owned(), fitted, model: (family.model)(&values, decay_s) }
+    }
+
+    /// The error of a family with some values in each group, as a share of that at constant velocity. It is one along the road, on which
+    /// the decay of lateral speeds has no influence.
+    fn errors(&self, number: usize, values: &[f64], decay_s: f64) -> Vec<f64> {
+        let family = &FAMILIES[number];
+        let key = (number, values.iter().map(|value| value.to_bits()).collect::<Vec<u64>>());
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let ByGroup { groups, usual } = &self.starts[usize::from(family.plans)];
+        let found = known.entry(key).or_insert_with(|| {
+            let model = (family.model)(values, decay_s);
+            groups.iter().zip(usual).map(|(starts, usual)| along_error(&model, starts) / usual.max(1e-9)).collect()
+        });
+        found.clone()
     }
 }
 
@@ -55,13 +100,6 @@ impl Family {
 pub(crate) fn every<'a>(starts: &[&'a Start], most: usize) -> Vec<&'a Start> {
     let count = starts.len().min(most);
     (0..count).map(|index| starts[index * starts.len() / count]).collect()
-}
-
-/// The starts of each group, at most `most` of each.
-fn by_group<'a>(starts: &[&'a Start], most: usize) -> Vec<Vec<&'a Start>> {
-    let groups = starts.iter().map(|start| start.group + 1).max().unwrap_or(0);
-    let of_group = |group: usize| -> Vec<&'a Start> { starts.iter().copied().filter(|it| it.group == group).collect() };
-    (0..groups).map(|group| every(&of_group(group), most)).filter(|starts| !starts.is_empty()).collect()
 }
 
 /// The mean squared error along the road after 3 s \[m²\].

@@ -26,7 +26,7 @@ pub(crate) fn known_at(timeline: &Timeline, track: usize, step: i64) -> Option<(
     let (acceleration_mps2, speed_noise_mps) = slope(&|at| at.speed_mps);
     let (lateral_speed_mps, _) = slope(&|at| way.project(at.position).across_m);
     let others = timeline.tracks.iter().enumerate().filter(|(index, _)| *index != track);
-    let others = others.filter_map(|(_, other)| neighbour(other, step, at.position, &way, place.along_m));
+    let others = others.filter_map(|(_, other)| neighbour(timeline, other, step, at.position, &way, place.along_m));
     let known = TrafficMoment {
         speed_mps: at.speed_mps,
         acceleration_mps2,
@@ -68,7 +68,14 @@ fn slope(points: impl Iterator<Item = (f64, f64)> + Clone) -> (f64, f64) {
 }
 
 /// Another vehicle in the frame of a lane; none if it is far away or drives in another direction.
-fn neighbour(other: &Track, step: i64, from: [f64; 2], way: &LaneLine, along_m: f64) -> Option<NearbyVehicle> {
+fn neighbour(
+    timeline: &Timeline,
+    other: &Track,
+    step: i64,
+    from: [f64; 2],
+    way: &LaneLine,
+    along_m: f64,
+) -> Option<NearbyVehicle> {
     let at = other.at(step)?;
     if libm::hypot(at.position[0] - from[0], at.position[1] - from[1]) > SIGHT_M {
         return None;
@@ -78,10 +85,15 @@ fn neighbour(other: &Track, step: i64, from: [f64; 2], way: &LaneLine, along_m: 
     if cos < MIN_COS || place.across_m.abs() > ACROSS_M {
         return None;
     }
+    let past = past(other, step, timeline.step_s);
+    let speeds = past.iter().map(|at| (timeline.step_s * (at.step - step) as f64, at.speed_mps));
+    let (acceleration_mps2, speed_noise_mps) = slope(speeds);
     Some(NearbyVehicle {
         ahead_m: place.along_m - along_m,
         across_m: place.across_m,
         speed_mps: at.speed_mps * cos,
+        acceleration_mps2,
+        speed_noise_mps,
         length_m: other.length_m,
         width_m: other.width_m,
     })

@@ -2,7 +2,8 @@
 //!
 //! The record gives pose and speed at times. Who moves the vehicles puts this one where its record says
 //! ([`DriverKind::record`]); its inputs are those that the bicycle would need for that. No other driver knows where it will be: its plan
-//! is to keep its speed along its road, and so are the predictions of the others.
+//! is to keep its speed along its road, and so are the predictions of the others. With `plans_record` its plan is its record, which who
+//! knows its plan then knows.
 //!
 //! Where the record ends, the vehicle keeps its speed and its place in its lane; or another driver takes over before, with
 //! `hands_over`.
@@ -38,6 +39,11 @@ pub struct Settings {
     /// The record itself, in place of a table: rows of time \[s\], x and y \[m\], heading \[rad\] and speed \[m/s\].
     #[schemars(length(max = 100_000), example = vec![[0.0, 12.0, 1.75, 0.0, 8.0], [1.0, 20.0, 1.75, 0.0, 8.0]])]
     pub points: Vec<[f64; 5]>,
+    /// Whether its plan is its record: then whoever knows its plan knows where it will be, as planners of CommonRoad do. Otherwise its plan
+    /// is to keep its speed.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[schemars(example = true)]
+    pub plans_record: bool,
     /// The driver that takes over from the record, and when; by default none does.
     #[schemars(example = json!({ "to": "human", "when": "disturbed" }))]
     pub hands_over: Option<HandOver>,
@@ -56,7 +62,8 @@ impl DriverKind for Settings {
     }
 
     fn driver(&self) -> Box<dyn Drive> {
-        Box::new(Recorded { record: self.record(), hands_over: self.hands_over.clone(), successor: None })
+        let Settings { hands_over, plans_record, .. } = self.clone();
+        Box::new(Recorded { record: self.record(), plans_record, hands_over, successor: None })
     }
 
     fn plan_time(&self) -> PlanTime {
@@ -116,6 +123,7 @@ impl DriverKind for Settings {
 #[derive(Debug)]
 pub struct Recorded {
     record: Option<Record>,
+    plans_record: bool,
     hands_over: Option<HandOver>,
     /// Who has taken over.
     successor: Option<Box<dyn Drive>>,
@@ -140,6 +148,11 @@ impl Drive for Recorded {
             return Ok(plan);
         }
         let own = &scene.ego;
+        if let Some(record) = self.record.as_ref().filter(|_| self.plans_record) {
+            let mut trajectory = record.onwards(scene);
+            trajectory.inputs.first_mut().into_iter().for_each(|first| *first = self.input(scene));
+            return Ok(Plan { trajectory, ..Plan::default() });
+        }
         let Trajectory { states, mut inputs } =
             steadily_along(&own.route, &own.body, &own.state, scene.horizon, scene.step_s);
         if let Some(first) = inputs.first_mut() {
@@ -153,7 +166,9 @@ impl Drive for Recorded {
             Some(successor) => Some(successor.fork()?),
             None => None,
         };
-        Some(Box::new(Recorded { record: self.record.clone(), hands_over: self.hands_over.clone(), successor }))
+        let Recorded { record, hands_over, .. } = self;
+        let (record, hands_over) = (record.clone(), hands_over.clone());
+        Some(Box::new(Recorded { record, plans_record: self.plans_record, hands_over, successor }))
     }
 
     fn with_settings(&self, settings: &dyn DriverKind) -> Option<Box<dyn Drive>> {
@@ -197,6 +212,16 @@ mod tests {
         assert!((trajectory.inputs[0].acceleration_mps2 + 0.5).abs() < 1e-9, "{:?}", trajectory.inputs[0]);
         assert!(trajectory.states.iter().all(|state| state.speed_mps == 1.0));
         assert!(trajectory.inputs[1..].iter().all(|input| input.acceleration_mps2 == 0.0));
+    }
+
+    #[test]
+    fn a_record_that_is_the_plan_tells_the_future_and_goes_on_steadily_after_its_end() {
+        let points = (0..=20).map(|t| 0.1 * f64::from(t)).map(|t| [t, t - 0.2 * t * t, 0.185, 0.0, 1.0 - 0.4 * t]);
+        let settings = Settings { points: points.collect(), plans_record: true, ..Settings::default() };
+        let plan = settings.driver().plan(&scene(agent(0.0, 0.185, 0.0, 1.0), Vec::new()), &InferredFutures::default());
+        let states = plan.expect("a plan").trajectory.states;
+        assert!((states[10].speed_mps - 0.6).abs() < 1e-9 && (states[20].x_m - 1.2).abs() < 1e-9, "{:?}", states[10]);
+        assert!((states[30].x_m - 1.4).abs() < 1e-9 && (states[30].speed_mps - 0.2).abs() < 1e-9, "{:?}", states[30]);
     }
 
     #[test]
