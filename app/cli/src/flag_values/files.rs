@@ -69,7 +69,10 @@ impl Found {
         let more = self.left_out.len().saturating_sub(SHOWN);
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
         (!names.is_empty()).then(|| {
-            format!("note: left out, since they are plans or complete only where others extend them: {}{more}", names.join(", "))
+            format!(
+                "note: left out, since they are plans or complete only where others extend them: {}{more}",
+                names.join(", ")
+            )
         })
     }
 }
