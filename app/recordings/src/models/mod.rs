@@ -29,8 +29,11 @@ pub(crate) struct Fits<'a> {
     starts: [ByGroup<'a>; 2],
     all: Vec<&'a Start>,
     /// The errors in each group of a family, by its number and the bits of its values: fits without one group ask for the same ones.
-    known: Mutex<BTreeMap<(usize, Vec<u64>), Vec<f64>>>,
+    known: Mutex<KnownErrors>,
 }
+
+/// The errors of models in each group, by the number of their family and the bits of its values.
+type KnownErrors = BTreeMap<(usize, Vec<u64>), Vec<f64>>;
 
 /// Starts by group, and the error of constant velocity in each group.
 struct ByGroup<'a> {
