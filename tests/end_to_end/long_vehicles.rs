@@ -117,7 +117,7 @@ fn people_from_a_dense_ramp_keep_up_their_speed() {
     assert_merges(&two_flows(150.0, [2000, 700], &mix), 5.0);
 }
 
-/// Nobody touches another or becomes slower than a speed \[m/s\].
+/// No vehicle touches another or becomes slower than a speed \[m/s\].
 fn assert_merges(text: &str, least_mps: f64) {
     let changes = [Override::Set("budget.plans=1000000".to_owned())];
     let film = film("ramp", from_text("ramp.toml", text, &changes).unwrap_or_else(|error| panic!("{error}")));

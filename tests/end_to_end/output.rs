@@ -41,7 +41,7 @@ fn the_report_of_a_run_has_the_documented_keys() {
     for vehicle in report["vehicles"].as_array().expect("a list") {
         has_keys(
             vehicle,
-            "name driver completed_s final min_speed_mps max_speed_mps mean_abs_acceleration mean_abs_jerk \
+            "name driver completed_s standing final min_speed_mps max_speed_mps mean_abs_acceleration mean_abs_jerk \
              peak_acceleration_mps2 peak_braking_mps2 peak_braking_share hard_braking peak_jerk_mps3 \
              peak_lateral_acceleration_mps2 peak_urgency peak_calm_jerk_mps3 peak_urgent_jerk_mps3 \
              peak_calm_lateral_acceleration_mps2 wanted_speed_share astride_s longest_astride_s oncoming_s longest_oncoming_s \

@@ -29,7 +29,7 @@ fn main() {
     }
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) || Command::new("cc").arg("--version").output().is_err()
     {
-        return println!("skipped: there is no C compiler `cc`, or this is not Linux on x86-64");
+        return println!("skipped: no C compiler `cc` was found, or this is not Linux on x86-64");
     }
     for prefixed in [false, true] {
         the_closed_form_is_met(&built(prefixed));

@@ -32,7 +32,7 @@ pub(crate) struct OnRoad {
     pub acceleration_mps2: f64,
 }
 
-/// The row of a vehicle that is no more on the road.
+/// The row of a vehicle that has left the road.
 const GONE: usize = usize::MAX;
 
 /// The vehicles of one straight road.

@@ -56,10 +56,10 @@ pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<Name
         return Ok(files.iter().map(|file| in_folder(file, &path)).collect());
     }
     if let Some(star) = entry.find('*') {
-        let base = entry[..star].rsplit_once('/').map_or(folder.to_owned(), |(base, _)| folder.join(base));
-        let wanted = path.to_string_lossy();
+        let (below, pattern) = entry[..star].rfind('/').map_or(("", entry), |end| (&entry[..end], &entry[end + 1..]));
+        let base = [folder.join(below)].into_iter().find(|base| *base != Path::new("")).unwrap_or(".".into());
         let mut files = if base.is_dir() { files_of(&base, entry, place)? } else { Vec::new() };
-        files.retain(|file| fits(&wanted, &file.to_string_lossy()));
+        files.retain(|file| file.strip_prefix(&base).is_ok_and(|name| fits(pattern, &name.to_string_lossy())));
         if !files.is_empty() {
             return Ok(files.iter().map(|file| in_folder(file, &base)).collect());
         }

@@ -39,7 +39,7 @@ pub struct Settings {
     /// The record itself, in place of a table: rows of time \[s\], x and y \[m\], heading \[rad\] and speed \[m/s\].
     #[schemars(length(max = 100_000), example = vec![[0.0, 12.0, 1.75, 0.0, 8.0], [1.0, 20.0, 1.75, 0.0, 8.0]])]
     pub points: Vec<[f64; 5]>,
-    /// Whether its plan is its record: then whoever knows its plan knows where it will be, as planners of CommonRoad do. Otherwise its plan
+    /// Whether its plan is its record: then a driver who knows its plan knows where it will be, as planners of CommonRoad do. Otherwise its plan
     /// is to keep its speed.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     #[schemars(example = true)]

@@ -57,7 +57,7 @@ mod tests {
             obstacle(4, 80.0)
         );
         let imported = import_commonroad("made", &text, &ImportOptions::default()).expect("a scenario");
-        let scenario = imported.resolve(&Registry::standard()).expect("it resolves");
+        let scenario = imported.resolve(Registry::standard()).expect("it resolves");
         assert!(scenario.vehicles.iter().all(|vehicle| !vehicle.tells_plan()));
         let known = scenario.with_known_records();
         assert!(known.vehicles.iter().all(|vehicle| vehicle.tells_plan() && !vehicle.knows_plans()));
