@@ -57,7 +57,8 @@ pub(super) fn find(entry: &str, place: &Place, folder: &Path) -> Result<Vec<Name
     }
     if let Some(star) = entry.find('*') {
         let (below, pattern) = entry[..star].rfind('/').map_or(("", entry), |end| (&entry[..end], &entry[end + 1..]));
-        let base = [folder.join(below)].into_iter().find(|base| *base != Path::new("")).unwrap_or(".".into());
+        let base = folder.join(below);
+        let base = if base.as_os_str().is_empty() { PathBuf::from(".") } else { base };
         let mut files = if base.is_dir() { files_of(&base, entry, place)? } else { Vec::new() };
         files.retain(|file| file.strip_prefix(&base).is_ok_and(|name| fits(pattern, &name.to_string_lossy())));
         if !files.is_empty() {
