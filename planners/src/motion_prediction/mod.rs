@@ -23,7 +23,7 @@ pub use driver::{MotionModel, PredictedDriver};
 
 /// Time between two positions of a prediction \[s\].
 pub const STEP_S: f64 = 0.2;
-/// Who moves sideways faster than this changes lanes \[m/s\].
+/// A car that moves sideways faster than this is changing lanes \[m/s\].
 const SIDEWAYS_MPS: f64 = 0.4;
 /// Number of steps of a prediction, which reaches 5 s.
 pub const STEPS: usize = 25;

@@ -112,16 +112,12 @@ impl Agent {
     }
 
     /// The same, lowered a little where it lets another vehicle in.
-    fn letting_in(&self, permitted_mps: Vec<f64>, wanted_mps: f64, step_s: f64) -> Vec<f64> {
-        if !self.rules.lets_in {
-            return permitted_mps;
+    fn letting_in(&self, mut permitted_mps: Vec<f64>, wanted_mps: f64, step_s: f64) -> Vec<f64> {
+        if self.rules.lets_in {
+            let most_mps = wanted_mps - COURTESY_MPS * self.body.real_ratio().sqrt();
+            self.slow_down_to(most_mps, COURTESY_MPS2 * step_s, &mut permitted_mps);
         }
-        let least_mps = wanted_mps - COURTESY_MPS * self.body.real_ratio().sqrt();
-        let lowered = permitted_mps.into_iter().enumerate().map(|(stage, permitted_mps)| {
-            let reached_mps = self.state.speed_mps - COURTESY_MPS2 * step_s * (stage + 1) as f64;
-            permitted_mps.min(least_mps.max(reached_mps))
-        });
-        lowered.collect()
+        permitted_mps
     }
 
     /// The same, lowered until there is room to merge to the speed with which it comes there then, in comfort.
@@ -130,13 +126,17 @@ impl Agent {
             return permitted_mps;
         };
         permitted_mps.resize(horizon, f64::INFINITY);
-        let until = (merging.in_s / step_s) as usize;
-        let slower_mps = self.comfortable_braking_mps2() * step_s;
-        for (stage, permitted_mps) in permitted_mps.iter_mut().enumerate().take(until + 1) {
+        let stages = horizon.min((merging.in_s / step_s) as usize + 1);
+        self.slow_down_to(most_mps, self.comfortable_braking_mps2() * step_s, &mut permitted_mps[..stages]);
+        permitted_mps
+    }
+
+    /// Lowers the permitted speeds of the first stages to a speed \[m/s\], as fast as it becomes slower in each stage \[m/s\].
+    fn slow_down_to(&self, most_mps: f64, slower_mps: f64, permitted_mps: &mut [f64]) {
+        for (stage, permitted_mps) in permitted_mps.iter_mut().enumerate() {
             let reached_mps = self.state.speed_mps - slower_mps * (stage + 1) as f64;
             *permitted_mps = permitted_mps.min(most_mps.max(reached_mps));
         }
-        permitted_mps
     }
 }
 
